@@ -34,6 +34,20 @@ FALSE = {
 }
 
 
+# Squares and products of these are beyond floating point, in which a combination is sought.
+BEYOND = {
+    "a bound": (Goal((less(x, 10**200),)), None),
+    "a bound of a square": (Goal((less(x**2, 10**290),), (at_most(x, 10**150),)), None),
+    "a sum of what is large": (Goal((at_least(x + 10**200 * y, 0),), (at_least(x, 0), at_least(y, 0))), True),
+}
+
+
+@pytest.mark.parametrize("name", BEYOND)
+def test_numbers_beyond_floating_point_end_no_search(name):
+    goal, holds = BEYOND[name]
+    assert (prove_goal(goal) is not None) == bool(holds)
+
+
 @pytest.mark.parametrize("name", TRUE)
 def test_true_inequalities_are_proved(name):
     found = prove_goal(TRUE[name])

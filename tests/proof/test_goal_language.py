@@ -39,6 +39,12 @@ REFUSED = {
     "a derivative of the time that does not run": lambda: Goal(
         (at_most(D(x**2 * sp.exp(t)), -2 * x**2 * sp.exp(t)),), flow={x: -x}),
     "a rate by the time that does not run": lambda: Goal((at_most(D(x**2), 0),), flow={x: -x / (1 + t**2)}),
+    "a motion by the time that does not run": lambda: Goal(
+        (at_most(x**2, x_0**2),), (at_least(t, 1),), flow={x: x - t * x}, initial={x: x_0}, decreasing=x**2),
+    "a bound of a motion by the time that does not run": lambda: Goal(
+        (at_most(x, x_0 + t),), flow={x: sp.Integer(1)}, initial={x: x_0}),
+    "what always holds of the time that does not run": lambda: Goal(
+        (at_most(x, x_0),), flow={x: w}, inputs=(w,), initial={x: x_0}, always=(at_most(w, 1 - t),)),
     "infinity": lambda: Goal((at_most(x, sp.oo),)),
     "not a number": lambda: Goal((at_most(x, sp.nan),)),
     "an imaginary number": lambda: Goal((equal(sp.I * x, 0),)),
@@ -173,3 +179,14 @@ def test_a_function_of_time_changes_by_itself_too():
     flow = {x: -x, t: sp.Integer(1)}
     assert prove_goal(Goal((equal(D(value), -value),), flow=flow)) is not None
     assert find_counterexample(Goal((at_most(D(value), -2 * value),), flow=flow), "refuted") is not None
+
+
+def test_a_motion_by_the_time_that_runs_is_followed():
+    """With t held constant from 1 on, x^2 <= x_0^2 was proved of x' = (1 - t) x, which rises until t = 1."""
+    start = {x: x_0, t: sp.Integer(0)}
+    rises = Goal((at_most(x**2, x_0**2),), (at_least(t, 1),), flow={x: x - t * x, t: sp.Integer(1)}, initial=start,
+                 decreasing=x**2)
+    falls = Goal((at_most(x**2, x_0**2),), flow={x: -t * x, t: sp.Integer(1)}, initial=start, decreasing=x**2,
+                 always=(at_least(t, 0),))
+    assert prove_goal(rises) is None
+    assert prove_goal(falls) is not None

@@ -1,6 +1,8 @@
 """Named lemmas: of systems that a lemma is of, every hypothesis is proved; of one that breaks a hypothesis it is that
 one which fails."""
 
+from fractions import Fraction
+
 import pytest
 import sympy as sp
 
@@ -143,6 +145,11 @@ FALSE = [
     (lambda: yoshizawa(x**2, {x: -x + d * p, p: -d * x}, (), (d,)), "no bound of the input d"),
     (lambda: yoshizawa(x**2, {x: -x + d * p, p: -d * x}, (at_least(d**2, 1),), (d,)), "no bound of the input d"),
     (lambda: yoshizawa(x**2, {x: -x + d * p, p: -d * x}, (at_most(d**2, z**2),), (d, z)), "no bound of the input d"),
+    # d turns (0, 1) by a right angle and back in a time that falls like 1/sqrt(t), again and again: x does not vanish.
+    (lambda: yoshizawa(x**2, {x: -x + d * p, p: -d * x, t: 1}, (at_most(d**2, t),), (d,)), "no bound of the input d"),
+    (lambda: yoshizawa(x**2, {x: -x + d * p, p: -d * x}, (at_most(d**2, t),), (d,)), "no bound of the input d"),
+    (lambda: yoshizawa(x**2, {x: -x + d * p, p: -d * x}, (differ(p, 0), at_most(d**2, 1 / p**2)), (d,)),
+     "no bound of the input d"),
     # What an input comes as close to as it likes: h' = -h/d with d = 1 - t; x' = d - sqrt(abs(x)) with x = -t**2/16.
     (lambda: lemmas.darboux(x, -1 / d_declared, {x: -x / d_declared}, (), (d_declared,)), "the input d is declared"),
     (lambda: lemmas.darboux(x, -1 / d, {x: -x / d}, (greater(d, 0),), (d,)), "lets the input d come as close"),
@@ -211,6 +218,13 @@ def test_what_is_defined_everywhere_is_asked_and_shown():
     lemma = yoshizawa(x**2 / (1 + x**2), {x: -x / (1 + x**2) + d * p, p: -d * x}, (at_most(d**2, 1),), (d,))
     assert set(verdicts(lemma).values()) == {"proved"}
     assert {one.name for one in lemma.hypotheses} >= {"continuous", "lipschitz"}
+
+
+def test_whole_numbers_and_fractions_may_be_given_as_such():
+    given = [lemmas.comparison(x**2, 2, 0, FALLS), lemmas.ultimate_bound(x**2, Fraction(3, 2), 1, FALLS),
+             lemmas.finite_time(v, 1, Fraction(1, 2), {v: -2 * sp.sqrt(v)}, (at_least(v, 0),)),
+             lemmas.input_to_state(x**2, (x,), 1, 1, 1, 1, (d,), {x: -x + d}), lemmas.darboux(x, 1, {x: x})]
+    assert {verdict for lemma in given for verdict in verdicts(lemma).values()} == {"proved"}
 
 
 def test_the_time_may_be_nonnegative_and_a_constant_positive():

@@ -146,6 +146,7 @@ def claim_card(row: Mapping[str, Any]) -> Table:
         "other reading": f"{row['glyph_claim']}: {plain_formula(row['glyph'])}" if row["glyph"] else None,
         "mends": row["mends"],
         "rests on": ", ".join(row["rests_on"]), "our proof uses": ", ".join(row["premises"]),
+        "these assume besides": ", ".join(row["besides"]),
         "failed below": ", ".join(row["tainted_by"]), "note": plain_words(row["note"]),
         "certificate": row["certificate"] and _from_here(Path(row["certificate"])),
     }

@@ -13,13 +13,14 @@ import sympy as sp
 
 from workbench.errors import ClaimError
 from workbench.proof.language import (  # noqa: F401 - what goals are stated with
+    CLOCK,
     D,
     Language,
     cosh,
     derivatives_in,
     has_unstated,
     name_of,
-    names_in,
+    require_clock,
     saturation,
     sinh,
     symbols_in,
@@ -95,10 +96,6 @@ def differ(left: Any, right: Any) -> Relation:
     return Relation(sp.sympify(left, strict=True), "!=", sp.sympify(right, strict=True))
 
 
-# The name of time in plants, laws and papers.
-CLOCK = "t"
-
-
 @dataclass(frozen=True)
 class Goal:
     """For all values of the symbols: `assume` implies every relation in `show`.
@@ -149,15 +146,13 @@ class Goal:
         language.check_whole()
 
     def _require_clock(self) -> None:
-        """ClaimError where a derivative is of what changes with the time t and the flow does not say that t runs."""
-        named = {str(symbol) for symbol in (*self.flow, *self.inputs)}
-        derived = [inner for r in (*self.relations(), *self.lemmas) for side in (r.left, r.right)
-                   for inner in derivatives_in(side)]
-        if CLOCK in named or not derived:
-            return
-        if any(CLOCK in names_in(expr) for expr in (*derived, *self.flow.values())):
-            raise ClaimError(f"D(...) depends on the time {CLOCK}, to which the flow gives no rate: add {CLOCK}: 1 to "
-                             "the flow, or call it otherwise where it is a constant")
+        """ClaimError where the flow follows what changes with the time t, in a derivative or from the start to a later
+        instant, and does not say that t runs."""
+        followed = [inner for side in self._sides() for inner in derivatives_in(side)]
+        if self.initial or self.always or self.eventually is not None or self.decreasing is not None:
+            followed += [*self._sides(), *self.initial.values(), *self.facts, sp.Add(self.decreasing or 0)]
+        if followed:
+            require_clock((*self.flow, *self.inputs), (*followed, *self.flow.values()))
 
     def _leave_out_unreached(self) -> None:
         """Take out of the flow what certificates cannot state and the goal does not speak of.
@@ -168,10 +163,9 @@ class Goal:
         unstated = {s for s, rate in self.flow.items() if has_unstated(rate)}
         if not unstated:
             return
-        sides = [side for r in (*self.relations(), *self.lemmas) for side in (r.left, r.right)]
         others = (*self.facts, *self.inputs, *self.named, *self.initial, *self.initial.values(), *self.model,
                   *self.model.values(), sp.Add(self.decreasing or 0), sp.Add(self.eventually or 0))
-        needed = {s for expr in (*sides, *others) for s in expr.free_symbols}
+        needed = {s for expr in (*self._sides(), *others) for s in expr.free_symbols}
         rest = dict(self.flow)
         while reached := [s for s in rest if s.free_symbols & needed]:
             for symbol in reached:
@@ -199,6 +193,9 @@ class Goal:
     def relations(self) -> tuple[Relation, ...]:
         """All relations of the goal."""
         return (*self.show, *self.assume, *self.always)
+
+    def _sides(self) -> list[sp.Expr]:
+        return [side for r in (*self.relations(), *self.lemmas) for side in (r.left, r.right)]
 
     def evaluated(self, functions: bool = True) -> Goal:
         """The same goal for deciders, its expressions as sympy would have built them; it has the same symbols.

@@ -198,7 +198,7 @@ def claims_document(decisions: Sequence[Decision], where: Places) -> ClaimsDocum
             "certificate": str(where.path(claim)) if d.certificate else None,
             "counterexample": d.counterexample, "correction": d.correction,
             "premises": list(claim.premises), "tainted_by": list(d.tainted_by),
-            "proved_under": list(d.proved_under), "trust": d.trust,
+            "proved_under": list(d.proved_under), "besides": list(d.besides), "trust": d.trust,
             "seconds": round(d.seconds, 3), "title": claim.title, "note": claim.note,
             "recorded": claim.recorded, "computed": d.computed, "origin": claim.origin, "match": d.matched,
             "goal": d.goal,

@@ -18,7 +18,8 @@ class ClaimRow(TypedDict):
 
     equation: its name within the paper; statement: the printed LaTeX; certificate: its file, null where none is
     written; premises: claims that the proof uses; rests_on: those that the paper uses; tainted_by: of these, on the
-    whole way, the ones that fail; proved_under: what the proof uses and that is not shown; trust: how far the verdict
+    whole way, the ones that fail; proved_under: what the proof uses and that is not shown; besides: what claims that
+    it uses assume and it does not, as `x >= 1 (3)`; trust: how far the verdict
     is checked; recorded: the verdict that the paper's file states; glyph, glyph_claim: the other reading, and the row
     that decides it; goal_digest: sha256 of what was decided; fate: of a headline statement, with its reason and the
     rows that decide it; seconds: of processor time; oracle: where one was asked, what it says.
@@ -38,6 +39,7 @@ class ClaimRow(TypedDict):
     premises: list[str]
     tainted_by: list[str]
     proved_under: list[str]
+    besides: list[str]
     trust: str | None
     seconds: float
     title: str

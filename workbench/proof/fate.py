@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from workbench.proof.besides import besides
 from workbench.proof.places import places_of, subject_of
 from workbench.proof.premises import holds_in_other_reading, proved_under, with_taint
 from workbench.proof.verdict import Decision, Fate
@@ -20,7 +21,8 @@ def judged(decisions: Sequence[Decision]) -> list[Decision]:
     """The decisions, each with what it has from the others: the failed claims in the paper's chain to it, what its
     proof uses that is not shown, its fate, and its other reading. All that they rest on, in the paper and in our proof,
     is among them."""
-    tainted = with_taint(decisions)
+    taken = besides(decisions)
+    tainted = with_taint([replace(d, besides=taken.get(d.claim.id, ())) for d in decisions])
     fate, under = fates(tainted), proved_under(decisions)
     printed = {d.claim.id: d.claim.printed for d in decisions}
     return [replace(d, proved_under=under.get(d.claim.id, ()), fate=fate.get(d.claim.id),
@@ -50,7 +52,9 @@ def _fate(decision: Decision, by_id: dict[str, Decision], mended: Decision | Non
         holds = "holds in its other reading" if len(open_glyphs) == 1 else "hold in their other readings"
         readings = f"; {_named(open_glyphs, by_id)} on the way {holds}" if open_glyphs else ""
         if not failing:
-            return Fate("stands", f"proved, and no line that the paper uses to get there fails{readings}", open_glyphs)
+            where = f" where {listed(decision.besides)}, which it does not state," if decision.besides else ","
+            return Fate("stands", f"proved{where} and no line that the paper uses to get there fails{readings}",
+                        open_glyphs)
         return Fate("stands with corrections", f"proved as a whole, though the paper's way there fails at "
                     f"{_named(failing, by_id)}{readings}", failing)
     if mended is not None:

@@ -21,6 +21,7 @@ BASES = [sp.IndexedBase("x", **known).assumptions0 for known in ({}, {"real": Tr
 FUNCTIONS = (sp.log, sp.exp, sp.tanh, sp.sin, sp.cos, sp.tan, sp.atan, sp.Abs, sp.sign, sp.Max, sp.Min)
 LANGUAGE = ("Sum", "D", "log", "exp", "tanh", "sin", "cos", "tan", "arctan", "abs", "sign", "sqrt", "Max", "Min")
 NO_NUMBERS = frozenset((sp.I, sp.zoo, sp.nan, sp.oo, -sp.oo))
+CLOCK = "t"  # the name of time in plants, laws and papers
 LARGEST_POWER, LARGEST_NUMBER = 64, 10**300  # of the checker; of floating point, in which points are sought
 
 
@@ -104,6 +105,14 @@ class Language:
         if owner.assumptions0 not in (BASES if isinstance(owner, sp.IndexedBase) else SYMBOLS):
             raise ClaimError(f"symbol '{name}': sympy knows more of it than its certificate would say; make it real, "
                              "positive or nonnegative (indexed: real) and state the rest as an assumption")
+
+
+def require_clock(moving: Sequence[sp.Expr], followed: Sequence[sp.Expr]) -> None:
+    """ClaimError where what is followed along a flow changes with the time t, which is none of what moves."""
+    names = set(map(str, moving))
+    if names and CLOCK not in names and any(CLOCK in names_in(expr) for expr in followed):
+        raise ClaimError(f"the time {CLOCK} stands in what is followed along the flow, which gives it no rate: add "
+                         f"{CLOCK}: 1 to the flow, or call it otherwise where it is a constant")
 
 
 # A paper's V, its rates and its errors stand in most of its goals: what is looked at once is known by its value.

@@ -90,11 +90,16 @@ def proved_under(decisions: Sequence[Decision]) -> dict[str, tuple[str, ...]]:
     order of the decisions: it is true where these are. What such a claim in turn uses says no more."""
     by_id = {d.claim.id: d for d in decisions}
     found: dict[str, set[str]] = {}
-    for name in _sorter([d.claim for d in decisions], lambda claim: claim.premises).static_order():
+    for name in ordered([d.claim for d in decisions]):
         known = by_id[name].verdict in ("proved", "assumed")
         found[name] = set().union(*(found[i] for i in by_id[name].claim.premises)) if known else {name}
     return {name: tuple(other for other in by_id if other in found[name]) for name, d in by_id.items()
             if d.verdict == "proved"}
+
+
+def ordered(claims: Sequence[Stated]) -> list[str]:
+    """The ids of claims, what a proof uses before what uses it."""
+    return list(_sorter(claims, lambda claim: claim.premises).static_order())
 
 
 def _sorter(claims: Sequence[Stated], links: Links) -> TopologicalSorter[str]:

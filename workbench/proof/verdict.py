@@ -146,7 +146,8 @@ class Decision:
 
     goal: LaTeX made of what was decided; match: `parsed` where a machine found the printed line in the goal.
     tainted_by (failed claims in the paper's chain), proved_under (claims that a proof uses and that are not shown),
-    fate and other_reading (the printed line of the claim that decides it) come from the other claims.
+    besides (what these claims assume and this one does not, as `x >= 1 (3)`), fate and other_reading (the printed line
+    of the claim that decides it) come from the other claims.
     """
 
     claim: Stated
@@ -162,6 +163,7 @@ class Decision:
     goal: str | None = None
     tainted_by: tuple[str, ...] = ()
     proved_under: tuple[str, ...] = ()
+    besides: tuple[str, ...] = ()
     fate: Fate | None = None
     other_reading: str | None = None
 

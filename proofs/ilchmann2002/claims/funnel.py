@@ -16,6 +16,7 @@ eta, h, rate = sp.symbols("eta h l", real=True)
 H, L, b_0, K, g = sp.symbols("H L b_0 K g", positive=True)
 gain = 1 / (1 - eta**2)
 inside = greater(1 - eta**2, 0)
+near_the_wall = (at_least(eta**2, sp.Rational(1, 2)), at_most(h, H), at_least(h, -H))
 moving = {eta: rate * eta + h - b * gain * eta}
 OVER_ETA = "Over eta = phi e, with l = phi'/phi <= L and phi |f| <= H."
 
@@ -49,7 +50,7 @@ def share() -> Goal:
              scope=EVERY_FUNNEL, reading=OVER_ETA)
 def rest() -> Goal:
     """Young's inequality."""
-    return Goal((at_most(eta * h, 2 * H * eta**2),), (at_least(eta**2, sp.Rational(1, 2)), at_most(h, H), at_least(h, -H)))
+    return Goal((at_most(eta * h, 2 * H * eta**2),), near_the_wall)
 
 
 @paper.claim("wall", "Near the wall the error turns back", "implication",
@@ -59,7 +60,7 @@ def rest() -> Goal:
 def turned_back() -> Goal:
     """The gain grows without bound at the wall, so somewhere before it the error turns back."""
     return Goal((at_most(2 * rate * eta**2 + 2 * eta * h - 2 * b * g * eta**2, 0),),
-                (*paper.shown("rest"), at_most(rate, L), at_least(b, b_0), at_least(b_0 * g, L + 2 * H)))
+                (*near_the_wall, *paper.shown("rest"), at_most(rate, L), at_least(b, b_0), at_least(b_0 * g, L + 2 * H)))
 
 
 @paper.claim("margin", "How near the wall it comes", "implication",

@@ -77,7 +77,10 @@ def find_combination(goal: Goal, shown: Relation, relations: tuple[Relation, ...
         if shown.operator == "==":  # what is not negative would show no more than that
             terms = [term for term in terms if term.sign == "=="]
         if len(terms) <= MAX_COLUMNS:
-            chosen = _solve(target, terms, shown.strict)
+            try:
+                chosen = _solve(target, terms, shown.strict)
+            except OverflowError:  # numbers that floating point cannot hold
+                return None
             if chosen is not None:
                 return {"rule": "combination", "terms": [
                     {"coefficient": str(c), "factors": written(term.items)} for c, term in chosen]}

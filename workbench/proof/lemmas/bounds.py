@@ -8,7 +8,7 @@ import sympy as sp
 
 from workbench.proof.claim import D, Relation, at_least, at_most, greater, less
 from workbench.proof.latex.write import latex
-from workbench.proof.lemmas.lemma import EXIST, Hypothesis, Lemma, goal_of, square_norm, taken
+from workbench.proof.lemmas.lemma import EXIST, Hypothesis, Lemma, exact, goal_of, square_norm, taken
 from workbench.proof.lemmas.requirements import (
     Flow,
     Inputs,
@@ -26,10 +26,11 @@ def comparison(v: sp.Expr, rate: sp.Expr, offset: sp.Expr, flow: Flow, assume: S
     Khalil, Nonlinear Systems, lemma 3.4. rate, offset: constant; assume: what holds at all times. Raises ClaimError
     where v does not move, or a state is declared positive.
     """
+    v, rate, offset = exact(v, rate, offset)
     require_system("comparison", flow, assume, inputs)
     require_moving("comparison", flow, v)
     require_constant("comparison", flow, inputs, rate, offset)
-    a, b = latex(rate), latex(sp.Add(offset))
+    a, b = latex(rate), latex(offset)
     return Lemma("the comparison lemma", (
         Hypothesis("rate", "The bound on the rate", goal_of(at_most(D(v), -rate * v + offset), flow, assume, inputs)),
         Hypothesis("decay", "The rate of decay is positive", goal_of(greater(rate, 0), {})),
@@ -43,10 +44,11 @@ def ultimate_bound(V: sp.Expr, rate: sp.Expr, offset: sp.Expr, flow: Flow, assum
 
     Khalil, section 4.8. Raises ClaimError where V does not move, or a state is declared positive.
     """
+    V, rate, offset = exact(V, rate, offset)
     found = comparison(V, rate, offset, flow, assume, inputs)
     lower = Hypothesis("lower", "V is not negative", goal_of(at_least(V, 0), flow, assume, inputs))
     return Lemma("the ultimate bound by comparison", (lower, *found.hypotheses),
-                 rf"\limsup_{{t \to \infty}} V(t) \le \frac{{{latex(sp.Add(offset))}}}{{{latex(rate)}}}",
+                 rf"\limsup_{{t \to \infty}} V(t) \le \frac{{{latex(offset)}}}{{{latex(rate)}}}",
                  taken(EXIST, assume))
 
 
@@ -57,10 +59,11 @@ def finite_time(V: sp.Expr, rate: sp.Expr, power: sp.Expr, flow: Flow, assume: S
     Bhat and Bernstein, SIAM Journal on Control and Optimization 38 (2000), theorem 4.2. Raises ClaimError where V does
     not move, or a state is declared positive.
     """
+    V, rate, power = exact(V, rate, power)
     require_system("finite_time", flow, assume, inputs)
     require_moving("finite_time", flow, V)
     require_constant("finite_time", flow, inputs, rate, power)
-    q, c = latex(1 - sp.Add(power)), latex(rate)
+    q, c = latex(1 - power), latex(rate)
     return Lemma("the finite-time theorem of Bhat and Bernstein", (
         Hypothesis("lower", "V is not negative", goal_of(at_least(V, 0), flow, assume, inputs)),
         Hypothesis("rate", "The bound on the rate where V is positive",
@@ -78,6 +81,7 @@ def input_to_state(V: sp.Expr, state: Sequence[sp.Expr], lower: sp.Expr, upper: 
     Sontag and Wang, Systems & Control Letters 24 (1995), theorem 1, with quadratic bounds. Raises ClaimError where V
     does not move, a state is declared positive, or a rate jumps.
     """
+    V, lower, upper, rate, gain = exact(V, lower, upper, rate, gain)
     require_system("input_to_state", flow, assume, disturbance)
     require_continuous_rates("input_to_state", flow, disturbance)
     require_moving("input_to_state", flow, V)

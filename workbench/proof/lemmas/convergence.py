@@ -9,7 +9,7 @@ import sympy as sp
 from workbench.proof.claim import D, Relation, at_least, at_most, greater
 from workbench.proof.latex.write import latex
 from workbench.proof.lemmas.bounds import quadratic_bounds
-from workbench.proof.lemmas.lemma import EXIST, Hypothesis, Lemma, goal_of, square_norm, taken
+from workbench.proof.lemmas.lemma import EXIST, Hypothesis, Lemma, exact, goal_of, square_norm, taken
 from workbench.proof.lemmas.regular import regular
 from workbench.proof.lemmas.requirements import (
     Flow,
@@ -37,6 +37,7 @@ def barbalat(V: sp.Expr, W: sp.Expr, level: sp.Symbol, steepest: sp.Expr, flow: 
     symbol of its own; steepest: constant, may have the level in it. assume: what holds at all times. Raises ClaimError
     where V or W does not move, a state is declared positive, or the level stands elsewhere.
     """
+    V, W, steepest = exact(V, W, steepest)
     require_system("barbalat", flow, assume, inputs)
     require_own_symbol("barbalat", level, (V, W, *flow, *rates_of(flow), *inputs), assume)
     require_moving("barbalat", flow, V, W)
@@ -63,10 +64,11 @@ def lasalle_yoshizawa(V: sp.Expr, state: Sequence[sp.Expr], lower: sp.Expr, uppe
     input. Raises ClaimError where V does not move, W is of more than the state, a state is declared positive, a rate
     jumps, or no bound of it is seen at all times alike.
     """
+    V, lower, upper, W = exact(V, lower, upper, W)
     require_system("lasalle_yoshizawa", flow, assume, inputs)
     require_whole_state("lasalle_yoshizawa", flow, state)
     require_closed("lasalle_yoshizawa", assume, inputs)
-    require_bounded_inputs("lasalle_yoshizawa", assume, inputs)
+    require_bounded_inputs("lasalle_yoshizawa", flow, assume, inputs)
     require_continuous_rates("lasalle_yoshizawa", flow, inputs)
     require_bounded_in_time("lasalle_yoshizawa", flow)
     require_moving("lasalle_yoshizawa", flow, V, W)
@@ -92,6 +94,7 @@ def razumikhin(V: sp.Expr, past: Mapping[sp.Expr, sp.Symbol], lower: sp.Expr, up
     Raises ClaimError where V does not move, a state or a delayed value is declared positive or assumed to be, or a rate
     jumps or has no bound at all times.
     """
+    V, lower, upper, factor, rate = exact(V, lower, upper, factor, rate)
     state, delayed = tuple(past), tuple(past.values())
     require_system("razumikhin", flow, assume, delayed)
     require_whole_state("razumikhin", flow, state)

@@ -8,7 +8,7 @@ import sympy as sp
 
 from workbench.proof.claim import D, Relation, equal, greater
 from workbench.proof.latex.write import latex
-from workbench.proof.lemmas.lemma import Hypothesis, Lemma, goal_of, taken
+from workbench.proof.lemmas.lemma import Hypothesis, Lemma, exact, goal_of, taken
 from workbench.proof.lemmas.regular import regular
 from workbench.proof.lemmas.requirements import (
     Flow,
@@ -28,6 +28,7 @@ def nagumo(h: sp.Expr, flow: Flow, assume: Sequence[Relation] = (), inputs: Inpu
     inputs and constants alone, as the bounds of a disturbance, which are closed. Raises ClaimError where h does not
     move, a state is declared positive or assumed to be, or a rate jumps.
     """
+    (h,) = exact(h)
     _require("nagumo", h, flow, assume, inputs)
     return Lemma("Nagumo's theorem", (
         Hypothesis("border", "The rate on the border points inwards",
@@ -43,6 +44,7 @@ def darboux(h: sp.Expr, cofactor: sp.Expr, flow: Flow, assume: Sequence[Relation
     Goriely, Integrability and Nonintegrability of Dynamical Systems, section 2.5. A cofactor that need not be defined
     everywhere, as h'/h is not, is one more hypothesis. assume, ClaimError: see `nagumo`.
     """
+    h, cofactor = exact(h, cofactor)
     _require("darboux", h, flow, assume, inputs)
     return Lemma("Darboux's lemma", (
         Hypothesis("rate", "The rate is a multiple", goal_of(equal(D(h), cofactor * h), flow, assume, inputs)),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import sympy as sp
 
@@ -52,3 +53,8 @@ def goal_of(shown: Relation, flow: Flow, assume: Sequence[Relation] = (),
 def square_norm(state: Sequence[sp.Expr]) -> sp.Expr:
     """x'x of a state."""
     return sp.Add(*(x**2 for x in state))
+
+
+def exact(*values: Any) -> tuple[sp.Expr, ...]:
+    """Expressions of what is given, whole numbers and fractions among it."""
+    return tuple(sp.sympify(value, strict=True) for value in values)

@@ -123,14 +123,16 @@ def require_bounded_in_time(name: str, flow: Flow) -> None:
                                  "times is seen: put an input in the place of what changes, and assume its bounds")
 
 
-def require_bounded_inputs(name: str, assume: Sequence[Relation], inputs: Inputs) -> None:
+def require_bounded_inputs(name: str, flow: Flow, assume: Sequence[Relation], inputs: Inputs) -> None:
     """Refuse an input of which no bound is assumed, d**2 <= c or abs(d) <= c with a constant c: the theorem asks rates
-    that are bounded at all times alike."""
+    that are bounded at all times alike, which a bound that moves, as by the time, need not be."""
+    varying = moving_symbols(flow) | set(inputs)
+
     def bounds(relation: Relation, one: sp.Expr) -> bool:
         left, right = (relation.left, relation.right) if relation.operator in ("<=", "<") else (
             relation.right, relation.left)
         return relation.operator in ("<=", "<", ">=", ">") and left in (one**2, sp.Abs(one)) and not (
-            sp.Add(right).free_symbols & set(inputs))
+            right.free_symbols & varying or CLOCK in map(str, right.free_symbols))
 
     for one in inputs:
         if not any(bounds(relation, one) for relation in assume):

@@ -1,0 +1,73 @@
+"""What a proof takes of a premise beyond what that shows is told: the premise's own assumptions, signs and rates."""
+
+import pytest
+import sympy as sp
+
+from workbench.proof.claim import D, Goal, at_least, at_most, greater
+from workbench.proof.decide.engine import decide_all
+from workbench.proof.paper import Paper
+
+x, y, z = sp.symbols("x y z", real=True)
+z_declared = sp.Symbol("z", positive=True)
+HALF = sp.Rational(1, 2)
+
+
+def judged(*builders):
+    """Decisions on claims 1, 2, ..., each built from what the one before shows; the last is a headline."""
+    paper = Paper("p2030", "none")
+    for number, build in enumerate(builders, 1):
+        premises = (str(number - 1),) if number > 1 else ()
+        severity = "result" if number == len(builders) else "step"
+        collect = paper.claim(str(number), "A line", "inequality", "x", "proved", premises=premises, severity=severity)
+        collect(lambda build=build, premises=premises: build(paper.shown(premises[0]) if premises else ()))
+    found = decide_all(paper.claims)
+    assert {d.verdict for d in found} == {"proved"}
+    return found
+
+
+def beyond_one(shown):
+    return Goal((at_least(x**2, 1),), (*shown, at_least(x, 1)))
+
+
+def everywhere(shown):
+    """False of x = 0 where nothing but x**2 >= 1 for x >= 1 is shown."""
+    return Goal((at_least(x**2, HALF),), shown)
+
+
+NARROWER = {
+    "an assumption": ((beyond_one, everywhere), ("x >= 1 (1)",)),
+    "an assumption two steps below": (
+        (beyond_one, everywhere, lambda shown: Goal((at_least(2 * x**2, 1),), shown)), ("x >= 1 (1)",)),
+    "a sign that is declared": ((lambda _: Goal((greater(z_declared**3, 0),)), lambda shown: Goal(
+        (greater(z, 0),), tuple(r.subs({z_declared: z}) for r in shown))), ("z > 0 (1)",)),
+    "rates of another flow": ((lambda _: Goal((at_most(D(x**2), 0),), flow={x: -x}), lambda shown: Goal(
+        (at_most(D(x**2), 1),), shown, flow={x: x})), ("rates are as in (1)",)),
+    "what always holds": ((lambda _: Goal(
+        (at_most(x, 0),), flow={x: y}, inputs=(y,), initial={x: sp.S.Zero}, always=(at_most(y, 0),), decreasing=x),
+        lambda shown: Goal((at_most(x + y**2, y**2),), shown)), ("y <= 0 (1)",)),
+}
+AS_WIDE = {
+    "the same assumption": (beyond_one, lambda shown: Goal((at_least(x**2, HALF),), (*shown, at_least(x, 1)))),
+    "no assumption": (lambda _: Goal((at_least(x**2, 0),)), lambda shown: Goal((at_least(x**2 + 1, 1),), shown)),
+    "letters of its own": (lambda _: Goal((at_least(x, 0),), (at_least(x - y, 0), at_least(y, 0))),
+                           lambda shown: Goal((at_least(x + 1, 1),), shown)),
+    "the same rates": (lambda _: Goal((at_most(D(x**2), 0),), flow={x: -x}), lambda shown: Goal(
+        (at_most(D(x**2), 1),), shown, flow={x: -x, y: x})),
+    "what is not used": (beyond_one, lambda _: Goal((at_least(x**2 + 1, 1),))),
+}
+
+
+@pytest.mark.parametrize("name", NARROWER)
+def test_what_a_premise_assumes_is_said_of_what_uses_it(name):
+    builders, taken = NARROWER[name]
+    last = judged(*builders)[-1]
+    assert last.besides == taken
+    assert last.fate.word == "stands"
+    assert f"proved where {taken[0]}, which it does not state" in last.fate.why
+
+
+@pytest.mark.parametrize("name", AS_WIDE)
+def test_nothing_is_said_where_a_premise_assumes_no_more(name):
+    last = judged(*AS_WIDE[name])[-1]
+    assert last.besides == ()
+    assert last.fate.why == "proved, and no line that the paper uses to get there fails"
