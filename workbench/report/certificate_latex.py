@@ -35,6 +35,11 @@ def expression_latex(text: str, style: Style = "exact") -> str:
     return _written(tree if style == "exact" else _Numbers({}, style).visit(tree))[0]
 
 
+def factor_latex(text: str, alone: bool = False) -> str:
+    """An expression as a factor of a product, a sum in brackets; alone: so that it can be raised to a power."""
+    return _held(_tidied(parse(text)), ATOM if alone else PRODUCT)
+
+
 def rate_latex(name: str, rate: str, style: Style = "exact") -> str:
     """The rate of a letter along a motion, as an equation."""
     return rf"\frac{{d}}{{dt}} {name_latex(name)} = {expression_latex(rate, style)}"

@@ -68,7 +68,7 @@ def breaks_at(point: Counterexample) -> str:
         sides = f"{point.left} {point.operator} {point.right}".replace(r"\approx ", "")
         says = f"{line} would say ${sides}${rounded}"
     if point.motion:
-        return f"with {at}, everything assumed holds at all times, but {says}"
+        return f"with {at}, everything assumed holds throughout, but {says}"
     return f"with {at}, {says}" if at else says
 
 

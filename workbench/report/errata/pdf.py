@@ -34,8 +34,11 @@ def typst_source(blocks: Sequence[Block]) -> str:
 
 
 def _formula(latex: str, label: str) -> str:
-    above = f"#block(below: 0.55em)[#text(8.5pt, gray.darken(40%), {quoted(label)})]\n" if label else ""
-    return f"#block(inset: (left: 1em), above: 0.9em)[{above}{typst_formula(latex, display=True)}]"
+    """A label keeps to the formula below it, over the end of a page too."""
+    words = f"#text(8.5pt, gray.darken(40%), {quoted(label)})"
+    above = f"#block(inset: (left: 1em), above: 0.9em, below: 0.55em, sticky: true)[{words}]\n" if label else ""
+    space = ", above: 0.55em" if label else ", above: 0.9em"
+    return f"{above}#block(inset: (left: 1em){space})[{typst_formula(latex, display=True)}]"
 
 
 def _text(text: str) -> str:
