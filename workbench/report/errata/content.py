@@ -105,5 +105,5 @@ def _rechecking(decisions: Sequence[Decision], commands: bool) -> list[Block]:
                       "re-checked by:"),
             Code(f"python {CHECKER} certificates"),
             Paragraph(("Each command above re-checks one, and that it is for the line named. " if commands else "")
-                      + f"The workbench writes the certificates by 'workbench prove {paper} --write' and these "
-                      f"corrections by 'workbench errata {paper}'.")]
+                      + "The workbench writes the certificates and these corrections by:"),
+            Code(f"workbench prove {paper} --write\nworkbench errata {paper}")]

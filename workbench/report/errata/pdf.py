@@ -16,6 +16,12 @@ HEAD = """#set document(date: none)
 #set par(justify: true, leading: 0.6em)
 #show heading: set block(above: 1.4em, below: 0.8em, breakable: false)
 #show raw: set text(size: 7pt)
+#let tall(body) = {
+  show math.equation: set text(top-edge: "bounds", bottom-edge: "bounds")
+  body
+}
+#show list: set par(justify: false)
+#show list: tall
 """
 
 
@@ -38,7 +44,7 @@ def _formula(latex: str, label: str) -> str:
     words = f"#text(8.5pt, gray.darken(40%), {quoted(label)})"
     above = f"#block(inset: (left: 1em), above: 0.9em, below: 0.55em, sticky: true)[{words}]\n" if label else ""
     space = ", above: 0.55em" if label else ", above: 0.9em"
-    return f"{above}#block(inset: (left: 1em){space})[{typst_formula(latex, display=True)}]"
+    return f"{above}#block(inset: (left: 1em){space})[#tall[{typst_formula(latex, display=True)}]]"
 
 
 def _text(text: str) -> str:
