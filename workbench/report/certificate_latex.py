@@ -150,7 +150,7 @@ def _tidied(node: ast.expr) -> ast.expr:
         return _negative(_tidied(node.operand))
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
         inside = [_tidied(arg) for arg in node.args]
-        if _is(inside[0], 0) and node.func.id in ("exp", "Sum", "D"):
+        if _is(inside[0], int(node.func.id == "log")) and node.func.id in ("exp", "log", "Sum", "D"):
             return ONE if node.func.id == "exp" else ZERO
         return ast.Call(node.func, inside, [])
     return node

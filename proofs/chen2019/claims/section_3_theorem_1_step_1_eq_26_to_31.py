@@ -44,13 +44,13 @@ def _starts_at_zero(*extra: Relation) -> Goal:
 @paper.claim("A3", "Assumption 3 makes V_i start at zero", "implication",
              r"\text{$V_{i}(t) = \int_0^t \dot{V}_i(\tau) d\tau$ indicated by Assumption 3, $s_i(0) = s_r(0)$ and "
              r"$v_i(0) = v_r(0)$}", "gap", match="words",
-             reading="s_i(0) = s_r(0) and v_i(0) = v_r(0) imply V_i(0) = 0.", scope=EACH_CAR,
+             severity="cosmetic", reading="s_i(0) = s_r(0) and v_i(0) = v_r(0) imply V_i(0) = 0.", scope=EACH_CAR,
              correction=lambda: _starts_at_zero(*lambda_zero),
              corrected_statement=r"s_i(0) = s_r(0),\ v_i(0) = v_r(0),\ \lambda_{1,i}(0) = \lambda_{2,i}(0) = 0 "
                                  r"\Rightarrow V_i(0) = 0",
              note="z contains lambda, whose initial value Assumption 3 does not name. It must be zero in every "
-                  "iteration; before (51) the paper calls just that a fact, so this is an omission, mended by "
-                  "A3.lambda.")
+                  "iteration; before (51) the paper calls just that a fact. It belongs into Assumption 3, and nothing "
+                  "hangs on that it does not stand there (A3.lambda).")
 def starts_at_zero() -> Goal:
     """V at the initial state that Assumption 3 names."""
     return _starts_at_zero()
