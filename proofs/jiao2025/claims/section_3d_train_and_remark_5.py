@@ -8,7 +8,7 @@ import sympy as sp
 
 from workbench.proof.claim import Goal, Relation, at_least, at_most, differ, equal, greater, less
 
-from ..laws import e_next, e_prev, epsilon, input_step, lamda, phi_first, phi_i, rho
+from ..laws import e_prev, epsilon, input_step, lamda, phi_first, rho
 from ..notation import Delta_v_k, p_k, v_d
 from ..paper import paper
 from ..plant import M, T_s, next_speed, u_i, u_prev, v_i
