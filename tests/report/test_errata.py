@@ -17,6 +17,7 @@ from workbench.proof.checker import goal_digest
 from workbench.report.counterexample import counterexample_of
 from workbench.report.errata import pdf
 from workbench.report.errata.blocks import Code, Formula, Heading, Item, Items, Paragraph
+from workbench.report.errata.chain import corrections
 from workbench.report.errata.content import errata
 from workbench.report.errata.latex import latex_document
 from workbench.report.errata.letters import letters_of
@@ -158,6 +159,41 @@ def test_a_lemma_is_shown_once_unless_it_stands_on_a_case():
         {"rule": "cases", "of": "x - y", "nonnegative": both, "nonpositive": both}]})
     text = [line.text for line in told.lines]
     assert sum(r"y \ge -1" in line for line in text) == 1 and sum(r"x^{2} \ge 0$, since" in line for line in text) == 2
+
+
+def test_what_rests_on_a_correction_is_told_by_numbers():
+    assert corrections(["a", "b", "c", "d", "x", "f"], {"a": 4, "b": 2, "c": 5, "d": 6, "f": 9}) == (
+        "corrections 2, 4 to 6 and 9")
+    assert corrections(["a"], {"a": 3}) == "correction 3" and corrections(["a"], {}) == ""
+    text = markdown(errata(paper(), CITATION))
+    assert "**Consequence.** Theorem 1 (correction 1) rests on it." in text  # (4) is what Theorem 1 rests on
+    assert "**Consequence.** The paper gets there by equation (4) (correction 2), which fails." in text
+    assert "falls: " in text and "See correction 1." in text
+
+
+def test_an_open_reading_is_set_as_formulas_and_one_of_another_line_is_named():
+    text = markdown(errata(paper(), CITATION))
+    reading = text[text.index("### Equation (7) (section 3)"):]
+    assert "**As extracted:**\n\n$$\nz_1 \\ge 0\n$$" in reading
+    assert "**Holds when it is read as:**\n\n$$\nz_1^2 \\ge 0\n$$" in reading and "certificates/7.json" in reading
+    rows = [replace(d, other_reading=d.claim.printed) if d.claim.equation == "7" else d for d in paper()]
+    assert "**Other reading.** It holds with another line read otherwise: “the line 7.glyph”." in markdown(
+        errata(rows, CITATION))
+
+
+def test_a_paper_whose_text_was_not_at_hand_is_charged_with_nothing():
+    text = markdown(errata(paper(), CITATION, at_hand=False))
+    assert "**As commonly stated:**" in text and "**Printed:**" not in text
+    assert "nothing here is charged to the paper itself" in text
+    fine = [d for d in paper() if d.claim.equation == "lemma2"]
+    text = markdown(errata(fine, CITATION, at_hand=False))
+    assert text.startswith("# Corrections: none") and "Refuted" not in text and "Each command" not in text
+
+
+def test_a_sentence_with_a_power_can_break_and_a_label_keeps_to_its_formula():
+    """A power took the whole sentence before it for its base, which no line then broke."""
+    source = pdf.typst_source([Formula(r"\text{the largest was 0.48 m/s$^2$ at the start}", "Printed")])
+    assert '#"the largest was 0.48 m/s";' in source and '" at the start"' in source and "sticky: true" in source
 
 
 def test_letters_of_ours_are_written_as_the_paper_writes_them():

@@ -28,7 +28,7 @@ _STARRED = re.compile(r"(?<![\w$\\{*])([A-Za-z])\*(?![\w*])")
 _DERIVED = re.compile(r"(?<![\w$\\{'])([A-Za-z])'(?!\w)")
 _UNIT = re.compile(r"(?<![\w$/])(k?N|m)/(s|m)\^2(?!\w)")
 # What a formula is raised to, or its prime, behind it.
-_BEHIND = re.compile(r"\$([^$]*[^$^{}]|[^$]*\})\$(?:\$\{\}(\^\{[^$]*\})\$|'(?!\w))")
+_BEHIND = re.compile(r"\$([^$]*[^$^{}]|[^$]*\})\$(?:\$\{\}(\^\{[^$]*\})\$|('+)(?!\w))")
 _RAISED = re.compile(r"\^(?:\{(-?\w+)\}|\((-?\w+(?:[-+/]\w+)?)\)|(-?\d+|T\b|i\b|[-+](?!\w)))")
 
 
@@ -46,7 +46,7 @@ def worded(text: str) -> str:
     text = _outside(text, _STARRED, lambda found: f"${found[1]}^*$")
     text = _outside(text, _DERIVED, lambda found: f"${found[1]}'$")
     text = _outside(text, _RAISED, lambda found: f"${{}}^{{{found[1] or found[2] or found[3]}}}$")
-    return _BEHIND.sub(lambda found: f"${found[1]}{found[2] or chr(39)}$", text)
+    return _BEHIND.sub(lambda found: found[0] if "^" in found[1] else f"${found[1]}{found[2] or found[3]}$", text)
 
 
 def _outside(text: str, pattern: re.Pattern[str], formula: Callable[[re.Match[str]], str]) -> str:

@@ -30,11 +30,12 @@ READINGS = ("The text of the paper was extracted by a machine, which may lose a 
 
 @dataclass(frozen=True)
 class _Paper:
-    """What all corrections of a paper are told with: what its lines say, the letters of their goals and what rests on
-    them, by equation; the numbers of the corrections, what stands in front of a line that the paper prints, and in
-    which correction a counterexample, or what is assumed at one, is written out."""
+    """What all corrections of a paper are told with, by equation: what its lines say, and say in their other readings,
+    the letters of their goals, what rests on them, their numbers; what stands in front of a line that the paper prints,
+    and in which correction a counterexample, or what is assumed at one, is written out."""
 
     titles: Mapping[str, str]
+    readings: Mapping[str, str]
     letters: Mapping[str, Letters]
     resting: Mapping[str, Sequence[str]]
     numbers: Mapping[str, int]
@@ -52,7 +53,9 @@ def corrections_of(found: Sequence[Finding], decisions: Sequence[Decision],
                    letters: Mapping[str, str], printed: str) -> list[Block]:
     """All corrections below the headings of their kinds, then the open readings; letters: what letters that are not the
     paper's stand for, by their names; printed: what stands in front of a line that is not only implied."""
+    titles = {d.claim.id: d.claim.title for d in decisions}
     paper = _Paper({d.claim.equation: d.claim.title for d in decisions},
+                   {d.claim.equation: titles.get(d.claim.glyph or "", "") for d in decisions},
                    {d.claim.equation: letters_of(d.certificate, letters) for d in decisions},
                    resting_lines(decisions), correction_numbers(found), printed)
     blocks: list[Block] = []
@@ -86,8 +89,11 @@ def _correction(found: Finding, paper: _Paper) -> list[Block]:
 
 def _reading(found: Finding, paper: _Paper) -> list[Block]:
     """A line that fails as it was extracted and holds in another reading."""
-    return [Heading(3, _heading(found)), Formula(found.printed, "As extracted"),
-            Formula(found.other_reading, "Holds when it is read as"), *_found(found, paper),
+    other: Block = Formula(found.other_reading, "Holds when it is read as")
+    if found.other_reading == found.printed:  # it is another line that is read otherwise
+        other = Paragraph(f"It holds with another line read otherwise: “{worded(paper.readings[found.equation])}”.",
+                          "Other reading")
+    return [Heading(3, _heading(found)), Formula(found.printed, "As extracted"), other, *_found(found, paper),
             *_labelled(("Note", noted(found.note, paper.titles))), *_command(found)]
 
 
@@ -95,7 +101,8 @@ def _heading(found: Finding) -> str:
     """Where a line stands and what it says."""
     section = section_of_place(found.equation, found.section)
     where = f" ({section})" if section else ""
-    return f"{whole_of(found.equation, found.title)}{where}: {worded(subject_of(found.title))}"
+    whole, title = whole_of(found.equation, found.title), subject_of(found.title)
+    return f"{whole}{where}" + (f": {worded(title)}" if title != whole else "")
 
 
 def _labelled(*texts: tuple[str, str]) -> list[Block]:
