@@ -13,14 +13,13 @@ from workbench.report.worded import show
 HEAD = """#set document(date: none)
 #set page(paper: "a4", margin: (x: 24mm, y: 22mm), numbering: "1 / 1")
 #set text(font: "New Computer Modern", size: 10.5pt, lang: "en")
-#set par(justify: true, leading: 0.6em)
+#set par(leading: 0.6em)
 #show heading: set block(above: 1.4em, below: 0.8em, breakable: false)
 #show raw: set text(size: 7pt)
 #let tall(body) = {
   show math.equation: set text(top-edge: "bounds", bottom-edge: "bounds")
   body
 }
-#show list: set par(justify: false)
 #show list: tall
 """
 
