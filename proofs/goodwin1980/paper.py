@@ -13,6 +13,6 @@ from __future__ import annotations
 
 from workbench.proof.paper import Paper
 
-paper = Paper("goodwin1980", " ".join((__doc__ or "").split("\n\n")[1].split()))
+paper = Paper("goodwin1980", " ".join((__doc__ or "").split("\n\n")[1].split()), at_hand=False)
 
 EVERY_STEP = "every regressor of two values, all estimates, every step"

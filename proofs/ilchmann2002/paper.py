@@ -13,6 +13,6 @@ from __future__ import annotations
 
 from workbench.proof.paper import Paper
 
-paper = Paper("ilchmann2002", " ".join((__doc__ or "").split("\n\n")[1].split()))
+paper = Paper("ilchmann2002", " ".join((__doc__ or "").split("\n\n")[1].split()), at_hand=False)
 
 EVERY_FUNNEL = "every positive smooth phi, every bounded rest, all errors within the funnel"

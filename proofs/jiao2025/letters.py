@@ -4,12 +4,12 @@ from __future__ import annotations
 
 LETTERS = {
     "a": r"the share of $\Delta v(k, i)$ that (1) carries over to $\Delta v(k+1, i)$",
-    "b": "$T_s/M$",
+    "b": r"$\frac{T_s}{M}$",
     "Delta_v_k": r"$\Delta v(k, i)$",
     "Delta_u_i": r"$\Delta u_f(k, i)$",
     "e_prev": "$e(k+1, i-1)$",
     "u_prev": "$u_f(k, i-1)$",
-    "phi_hat_1": r"the first estimate $\hat\phi_c(k, 1)$",
+    "phi_hat_1": r"$\hat\phi_c(k, 1)$",
     "phi_reset": "the estimate after a reset by (13)",
     "w_odd": "what (1) makes of the initial speed without an input in odd trials",
     "w_even": "the same in even trials",

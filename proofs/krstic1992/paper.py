@@ -14,6 +14,6 @@ from __future__ import annotations
 
 from workbench.proof.paper import Paper
 
-paper = Paper("krstic1992", " ".join((__doc__ or "").split("\n\n")[1].split()))
+paper = Paper("krstic1992", " ".join((__doc__ or "").split("\n\n")[1].split()), at_hand=False)
 
 EVERY_PHI = "every smooth phi, all states, parameters and gains"

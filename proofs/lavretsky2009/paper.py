@@ -13,6 +13,6 @@ from __future__ import annotations
 
 from workbench.proof.paper import Paper
 
-paper = Paper("lavretsky2009", " ".join((__doc__ or "").split("\n\n")[1].split()))
+paper = Paper("lavretsky2009", " ".join((__doc__ or "").split("\n\n")[1].split()), at_hand=False)
 
 EVERY_REGRESSOR = "every regressor of three functions, every reference, all states, estimates and gains"

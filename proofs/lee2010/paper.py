@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from workbench.proof.paper import Paper
 
-paper = Paper("lee2010", " ".join((__doc__ or "").split("\n\n")[1].split()))
+paper = Paper("lee2010", " ".join((__doc__ or "").split("\n\n")[1].split()), at_hand=False)
 
 EVERY_ATTITUDE = "all attitudes, desired attitudes, angular velocities, inertias about principal axes and gains"
 EVERY_MATRIX = "every matrix in place of R_d^T R, so every attitude"

@@ -15,7 +15,7 @@ LETTERS = {
     "k_v": r"$k_\nu$",
     "rho_k_hat": r"$\hat\rho_{k\nu}$",
     "rho_hat": r"$\hat\rho_i$",
-    "rho_0": r"the bound $\rho_i^0$",
+    "rho_0": r"$\rho_i^0$",
     "rho_k0": r"$\rho_{k\nu}^0$",
     "lambda_0": r"$\lambda_i^0$",
     "lambda_hat": r"$\hat\lambda_i^0$",

@@ -28,6 +28,7 @@ from .active_mode import (
     rho_k_law,
     rho_law,
     rho_law_61,
+    rho_law_61_true,
     signal_of,
     speed_error,
     trues,
@@ -42,15 +43,17 @@ sign_of_z_2 = (at_most(z_2, s * z_2), at_most(-z_2, s * z_2))  # with |s| <= 1: 
 
 def steady_state_error(show: Relation, compensation: sp.Expr, constants: Flow, *assume: Relation,
                        extra_force: sp.Expr | None = None, lambda_law: sp.Expr | None = None,
-                       damped: bool = False) -> Goal:
+                       damped: bool = False, turned: bool = False) -> Goal:
     """The closed loop as printed, with every failure constant, and a motion along it with z_1 = z_2 = 1 for ever.
+
+    turned: with the sign of nu_Delta in (61) turned, which the extracted text leaves open as it does that of (54).
 
     varpi is 1 for each of n_b = 16 motors, Xi = xi^T varpi and Xi_hat = xi_hat^T varpi. The estimates that integrate
     z_2 grow with t; what (44) makes of rho_knu_hat Xi_hat grows as fast as rho_hat (zeta - eta - r_2 z_2), against it.
     """
     signal = signal_of(compensation) + (rho_hat * nu_damp if damped else 0)
     rates: Flow = {**failed_train(signal), **estimate_laws, rho_k_hat: rho_k_law,
-                   rho_hat: rho_law_61 if damped else rho_law, Xi_hat: n_b * Gamma_xi * z_2}
+                   rho_hat: (rho_law_61_true if turned else rho_law_61) if damped else rho_law, Xi_hat: n_b * Gamma_xi * z_2}
     rates[z_2] += m * (extra_force or 0) - (Delta_b * x_2 + Delta_c * x_2**2 if damped else 0)
     if lambda_law is not None:
         rates[lambda_hat] = lambda_law
@@ -66,8 +69,11 @@ def steady_state_error(show: Relation, compensation: sp.Expr, constants: Flow, *
                     rho_hat: 8 * t**2 + 2 * damping * t / 3}
     motion |= {hat: rate.xreplace({z_2: one}).xreplace(fixed) * t for hat, rate in estimate_laws.items()}
     motion[hats[0]] += 2 - 5 * damping / 3
+    if turned:
+        motion |= {Xi_hat: 16 * t, rho_k_hat: -8 * t**2, rho_hat: 8 * t**2, hats[0]: motion[hats[0]] + 8 * damping / 3}
     if lambda_law is not None:
-        motion |= {lambda_hat: 1 - 16 * t, rho_k_hat: sp.Rational(1, 15) - 8 * t**2}
+        slope = lambda_law.xreplace(motion).xreplace(fixed)
+        motion |= {lambda_hat: 1 + slope * t, rho_k_hat: -slope / 240 - 8 * t**2}
     fixed[Xi] = sp.expand(-rates[z_2].xreplace(motion).xreplace(fixed).xreplace({Xi: zero}))
     always = (*(equal(dots[state], rate) for state, rate in rates.items()), equal(x_2, speed_error + xdot_m), *sign_of_z_2)
     used = {symbol for relation in (show, *assume, *always) for side in (relation.left, relation.right)

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from workbench.proof.paper import Paper
 
-paper = Paper("moreno2012", " ".join((__doc__ or "").split("\n\n")[1].split()))
+paper = Paper("moreno2012", " ".join((__doc__ or "").split("\n\n")[1].split()), at_hand=False)
 
 OFF_ZERO = "all states with x_1 not zero, all positive gains"
 BY_SIGN = "Over r = |x_1|^(1/2) and y = sign(x_1) x_2: a quadratic form of zeta is the same of (r, y)."

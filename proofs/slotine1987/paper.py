@@ -14,6 +14,6 @@ from __future__ import annotations
 
 from workbench.proof.paper import Paper
 
-paper = Paper("slotine1987", " ".join((__doc__ or "").split("\n\n")[1].split()))
+paper = Paper("slotine1987", " ".join((__doc__ or "").split("\n\n")[1].split()), at_hand=False)
 
 EVERY_ARM = "every two-link arm of the form stated, all angles, rates and parameters"

@@ -17,8 +17,10 @@ from workbench.proof.checker import goal_digest
 from workbench.report.counterexample import counterexample_of
 from workbench.report.errata import pdf
 from workbench.report.errata.blocks import Code, Formula, Heading, Item, Items, Paragraph
+from workbench.report.errata.chain import corrections
 from workbench.report.errata.content import errata
 from workbench.report.errata.latex import latex_document
+from workbench.report.errata.letters import letters_of
 from workbench.report.errata.markdown import markdown
 from workbench.report.errata.page import html_document
 from workbench.report.errata.proof_steps import proof_steps
@@ -79,8 +81,8 @@ def test_a_motion_is_written_out_with_the_loop_that_it_obeys_once():
     assert found.motion and found.given == (r"m \le k", r"\dot{z} = k z - k", r"\dot{c} = m")
     assert set(found.beside) == {"k = 5", "m = 3"}
     text = markdown(errata(rows, CITATION))
-    assert text.count("**What holds at all times:**") == 1 and text.count(r"\dot{z} = k z - k") == 1
-    assert "What is assumed there, and where, is written out in correction 1." in text
+    assert text.count("**What holds throughout:**") == 1 and text.count(r"\dot{z} = k z - k") == 1
+    assert "What is assumed, and all numbers, are those of correction 1." in text
     many = loop | {"always": [f"c_dot == {'m + ' * 60}{n}" for n in range(9)], "show": ["z <= epsilon"]}
     text = markdown(errata([replace(rows[1], certificate=motion | {"goal": many})], CITATION))
     assert text.count("$$\n\\dot{c} = m + m") == 9 and "**Where:**" in text  # a line for each
@@ -121,7 +123,7 @@ def test_the_commands_it_names_re_check_the_certificates(tmp_path):
         (tmp_path / "certificates" / f"{d.claim.equation}.json").write_text(json.dumps(d.certificate))
     shown = [block.text for block in errata(paper(), CITATION) if isinstance(block, Code)]
     commands = [text for text in shown if "--claim" in text]
-    assert len(commands) == 6
+    assert len(commands) == 7
     for command in commands[:2]:
         done = subprocess.run([sys.executable, *command.split()[1:]], cwd=tmp_path, capture_output=True, text=True,
                               check=False)
@@ -129,15 +131,81 @@ def test_the_commands_it_names_re_check_the_certificates(tmp_path):
     assert goal_digest(paper()[0].certificate) in commands[1]
 
 
-def test_a_proof_is_told_step_by_step_with_its_reasons():
-    steps = proof_steps({"goal": {"assume": ["k > 0", "x >= 1"], "show": ["k*x >= k"], "flow": {}}, "proofs": [
-        {"rule": "cut", "lemma": "x - 1 >= 0", "proof": {"rule": "combination", "terms": [
-            {"coefficient": "1", "factors": [{"assume": 1}]}]},
-         "then": {"rule": "combination", "terms": [{"coefficient": "1", "factors": [{"assume": 0}, {"assume": 2}]}]}}]})
-    told = [(s.depth, s.text) for s in steps]
-    assert told[0] == (0, r"To show: $k x \ge k$.")
-    assert any("shown above" in text and "assumed: $k > 0$" in text for _, text in told)
-    assert [depth for depth, _ in told] == [0, 1, 2, 3, 1, 2, 3]
+def test_a_proof_is_told_line_by_line_and_what_is_given_has_a_number_where_it_is_used():
+    lemma = {"rule": "cut", "lemma": "x**2 >= 1", "proof": {"rule": "combination", "terms": [
+        {"coefficient": "2", "factors": [{"assume": 1}]}, {"coefficient": "1", "factors": [{"square": "x - 1"}]}]}}
+    unused = {"rule": "cut", "lemma": "k >= 0", "proof": {"rule": "combination", "terms": [
+        {"coefficient": "1", "factors": [{"assume": 0}]}]}}
+    last = {"rule": "combination", "terms": [
+        {"coefficient": "1/4", "factors": [{"assume": 4}, {"assume": 0}, {"assume": 0}, {"inverse": 2}]}]}
+    goal = {"assume": ["k > 0", "x >= 1", "m > 0", "y <= 2"], "show": ["k**2*x**2/(4*m) >= k**2/(4*m)"], "flow": {}}
+    told = proof_steps({"goal": goal, "proofs": [lemma | {"then": unused | {"then": last}}]})
+    # By hand: x^2 - 1 = 2(x - 1) + (x - 1)^2, and k^2 x^2/(4 m) - k^2/(4 m) = (x^2 - 1) k^2/(4 m).
+    assert [(line.depth, line.text) for line in told.lines] == [
+        (0, r"To show: $\frac{k^{2} x^{2}}{4 m} \ge \frac{k^{2}}{4 m}$."),
+        (1, r"[2] $x^{2} \ge 1$, since $x^{2} - 1 = 2 [1] + \left(x - 1\right)^{2}$."),
+        (1, r"$\frac{k^{2} x^{2}}{4 m} - \frac{k^{2}}{4 m} = \frac{[2] k^{2}}{4 m}$.")]
+    assert told.signs == ("k, m > 0",) and told.given == (r"[1]\ x \ge 1", r"y \le 2")
+
+
+def test_a_lemma_is_shown_once_unless_it_stands_on_a_case():
+    """What was shown in one case without it holds in the other too; what was shown by it does not."""
+    free, of_case = ({"rule": "cut", "lemma": text, "proof": {"rule": "combination", "terms": [
+        {"coefficient": "1", "factors": [{"assume": index}]}]}} for text, index in (("y >= -1", 0), ("x**2 >= 0", 1)))
+    end = {"rule": "combination", "terms": [{"coefficient": "1", "factors": [{"assume": 2}]},
+                                            {"coefficient": "1", "factors": [{"assume": 3}]}]}
+    both = free | {"then": of_case | {"then": end}}
+    told = proof_steps({"goal": {"assume": ["y >= 0"], "show": ["y + x**2 >= -1"], "flow": {}}, "proofs": [
+        {"rule": "cases", "of": "x - y", "nonnegative": both, "nonpositive": both}]})
+    text = [line.text for line in told.lines]
+    assert sum(r"y \ge -1" in line for line in text) == 1 and sum(r"x^{2} \ge 0$, since" in line for line in text) == 2
+
+
+def test_what_rests_on_a_correction_is_told_by_numbers():
+    assert corrections(["a", "b", "c", "d", "x", "f"], {"a": 4, "b": 2, "c": 5, "d": 6, "f": 9}) == (
+        "corrections 2, 4 to 6 and 9")
+    assert corrections(["a"], {"a": 3}) == "correction 3" and corrections(["a"], {}) == ""
+    text = markdown(errata(paper(), CITATION))
+    assert "**Consequence.** Theorem 1 (correction 1) rests on it." in text  # (4) is what Theorem 1 rests on
+    assert "**Consequence.** The paper gets there by equation (4) (correction 2), which fails." in text
+    assert "falls: " in text and "See correction 1." in text
+
+
+def test_an_open_reading_is_set_as_formulas_and_one_of_another_line_is_named():
+    text = markdown(errata(paper(), CITATION))
+    reading = text[text.index("### Equation (7) (section 3)"):]
+    assert "**As extracted:**\n\n$$\nz_1 \\ge 0\n$$" in reading
+    assert "**Holds when it is read as:**\n\n$$\nz_1^2 \\ge 0\n$$" in reading and "certificates/7.json" in reading
+    rows = [replace(d, other_reading=d.claim.printed) if d.claim.equation == "7" else d for d in paper()]
+    assert "**Other reading.** It holds with another line read otherwise: “the line 7.glyph”." in markdown(
+        errata(rows, CITATION))
+
+
+def test_a_paper_whose_text_was_not_at_hand_is_charged_with_nothing():
+    text = markdown(errata(paper(), CITATION, at_hand=False))
+    assert "**As commonly stated:**" in text and "**Printed:**" not in text
+    assert "nothing here is charged to the paper itself" in text
+    fine = [d for d in paper() if d.claim.equation == "lemma2"]
+    text = markdown(errata(fine, CITATION, at_hand=False))
+    assert text.startswith("# Corrections: none") and "Refuted" not in text and "Each command" not in text
+
+
+def test_a_sentence_with_a_power_can_break_and_a_label_keeps_to_its_formula():
+    """A power took the whole sentence before it for its base, which no line then broke."""
+    source = pdf.typst_source([Formula(r"\text{the largest was 0.48 m/s$^2$ at the start}", "Printed")])
+    assert '#"the largest was 0.48 m/s";' in source and '" at the start"' in source and "sticky: true" in source
+
+
+def test_letters_of_ours_are_written_as_the_paper_writes_them():
+    own = letters_of({"goal": {"show": ["k_v*rho_k_hat**2*s <= rho_0**2*b"], "flow": {"rho_k_hat": "rho_k_hat_dot"}}},
+                     {"k_v": r"$k_\nu$", "rho_k_hat": r"$\hat\rho_{k\nu}$", "rho_0": r"$\rho_i^0$", "b": "$T_s/M$",
+                      "s": "the sign of $z_2$", "w": "$x$"})
+    formula = own.in_formula(r"\dot{\hat{\rho}}_{k} = k_{v} \hat{\rho}_{k}^{2} s \le \rho_{0}^{2} b + k_{va}")
+    assert formula == r"\dot{\hat\rho}_{k\nu} = k_\nu \hat\rho_{k\nu}^{2} s \le \left(\rho_i^0\right)^{2} b + k_{va}"
+    assert own.legend([Formula(r"s \le 1")]) == "$s$ is the sign of $z_2$."
+    # Where two would look alike, neither is written as the other.
+    twins = letters_of({"goal": {"show": ["d_i <= d"]}}, {"d_i": "$d$"})
+    assert twins.in_formula(r"d_{i} \le d") == r"d_{i} \le d" and twins.legend([Formula("d_{i}")]) == "$d_{i}$ is $d$."
 
 
 @pytest.mark.parametrize("proof", [
@@ -147,10 +215,12 @@ def test_a_proof_is_told_step_by_step_with_its_reasons():
     {"rule": "combination", "terms": [{"coefficient": "1/2", "factors": [
         {"fact": "log_tangent", "of": "x"}, {"square": "x"}, {"sum_of_squares": "x"}, {"positive": "x"}, {"any": "x"},
         {"square_of": 0}]}]},
+    {"rule": "monotone", "variable": "x", "from": "0", "derivative": {"rule": "identity"}, "at_start": {
+        "rule": "identity"}},
     {"rule": "nonincreasing", "function": "x", "decrease": {"rule": "identity"}, "then": {"rule": "identity"}}])
 def test_every_rule_of_the_checker_is_told(proof):
     goal = {"assume": ["x > 0"], "show": ["x >= 0"], "flow": {"x": "-x"}, "initial": {"x": "x_0"}, "always": ["x > 0"]}
-    steps = proof_steps({"goal": goal, "proofs": [proof]})
+    steps = proof_steps({"goal": goal, "proofs": [proof]}).lines
     assert len(steps) >= 2 and all(step.text.count("$") % 2 == 0 for step in steps)
 
 

@@ -26,11 +26,13 @@ class Paper:
     """The claims of one paper, in the order in which its proof file states them.
 
     notation: what the letters of its printed lines stand for, LaTeX to expression; letters: what letters that are not
-    the paper's stand for, names of symbols to a few words, in which formulas may stand between dollar signs.
+    the paper's stand for, names of symbols to a few words, in which formulas may stand between dollar signs; at_hand:
+    whether its lines stand as its own text has them, not as its result is commonly stated.
     """
 
     def __init__(self, name: str, citation: str, notation: Mapping[str, sp.Expr] | None = None,
-                 letters: Mapping[str, str] | None = None) -> None:
+                 letters: Mapping[str, str] | None = None, at_hand: bool = True) -> None:
+        self.at_hand = at_hand
         self.name, self.citation, self.notation = name, citation, dict(notation or {})
         self.letters = dict(letters or {})
         self.claims: list[Claim] = []

@@ -11,7 +11,7 @@ _WORDS = {"theorem": "Theorem", "lemma": "Lemma", "remark": "Remark", "table": "
           "proposition": "Proposition", "contribution": "Contribution", "section": "Section", "A": "Assumption",
           "assumption": "Assumption", "corollary": "Corollary", "property": "Property", "algorithm": "Algorithm"}
 # Places that a paper has without a number.
-_UNNUMBERED = {"intro": "Introduction", "text": "Text", "figures": "Figures", "tables": "Tables"} | {
+_UNNUMBERED = {"intro": "Introduction", "text": "The text", "figures": "Figures", "tables": "Tables"} | {
     word.lower(): word for word in ("Abstract", "Objective", "Conclusion", "Example", "Notation", *_WORDS.values())}
 STATEMENT = "Statement"  # of a line that has no number in its paper
 _TOLD = f"The {STATEMENT.lower()} "

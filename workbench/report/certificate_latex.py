@@ -35,6 +35,11 @@ def expression_latex(text: str, style: Style = "exact") -> str:
     return _written(tree if style == "exact" else _Numbers({}, style).visit(tree))[0]
 
 
+def factor_latex(text: str, alone: bool = False) -> str:
+    """An expression as a factor of a product, a sum in brackets; alone: so that it can be raised to a power."""
+    return _held(_tidied(parse(text)), ATOM if alone else PRODUCT)
+
+
 def rate_latex(name: str, rate: str, style: Style = "exact") -> str:
     """The rate of a letter along a motion, as an equation."""
     return rf"\frac{{d}}{{dt}} {name_latex(name)} = {expression_latex(rate, style)}"
@@ -145,7 +150,7 @@ def _tidied(node: ast.expr) -> ast.expr:
         return _negative(_tidied(node.operand))
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
         inside = [_tidied(arg) for arg in node.args]
-        if _is(inside[0], 0) and node.func.id in ("exp", "Sum", "D"):
+        if _is(inside[0], int(node.func.id == "log")) and node.func.id in ("exp", "log", "Sum", "D"):
             return ONE if node.func.id == "exp" else ZERO
         return ast.Call(node.func, inside, [])
     return node

@@ -21,6 +21,7 @@ HEADINGS: dict[Gravity, str] = {
 
 PRINTED, IMPLIED = "Printed", "Implied, not printed"
 NAMED = 5  # lines that fail on the way up to which all are named
+NUMBERS = 7  # values up to which those of letters in what is given are named too
 SHORT = 70  # characters of LaTeX up to which a relation is repeated beside its numbers
 
 
@@ -36,6 +37,8 @@ def verdict_sentence(found: Finding) -> str:
         return f"{name} {_words(found)}{where}."
     if found.verdict == "proved":
         return f"{name} is shown only from lines that are not shown, {_named(found, found.fate_by)}."
+    if found.verdict == "gap" and found.place.startswith("Assumption"):
+        return f"{name} does not give what the paper takes from it{where}."
     return f"{name} {_words(found)}{where}."
 
 
@@ -55,20 +58,21 @@ def _words(found: Finding) -> str:
 
 def breaks_at(point: Counterexample) -> str:
     """The numbers put in, and what the line says there."""
-    named = ", ".join(f"${value}$" for value in point.values)
+    few = not point.motion and point.others is None and len(point.values) + len(point.beside) <= NUMBERS
+    named = ", ".join(f"${value}$" for value in (*point.values, *(point.beside if few else ())))
     others = f"{'and ' if named else ''}{'all other letters' if named else 'all letters'} ${point.others}$"
     at = " ".join(filter(None, (named, others if point.others is not None else "")))
     if point.unbounded is not None:
         says = f"${point.unbounded}$ stays greater than the time itself, so that it is not bounded"
     elif point.left is None or point.right is None:
-        says = f"${point.relation}$ fails"
+        says = f"{f'${point.relation}$' if len(point.relation) <= SHORT else 'the line'} fails"
     else:
         line = f"${point.relation}$" if len(point.relation) <= SHORT else "the line"
         rounded = ", rounded" if r"\approx" in point.left + point.right else ""
         sides = f"{point.left} {point.operator} {point.right}".replace(r"\approx ", "")
         says = f"{line} would say ${sides}${rounded}"
     if point.motion:
-        return f"with {at}, everything assumed holds at all times, but {says}"
+        return f"with {at}, everything assumed holds throughout, but {says}"
     return f"with {at}, {says}" if at else says
 
 

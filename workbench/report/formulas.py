@@ -96,7 +96,8 @@ def _words_apart(latex: str) -> str:
     r"""`\text{a $x$ b}` as `\text{a }x\text{ b}`, and braces and signs as the converter knows them."""
     def parts(found: re.Match[str]) -> str:
         pieces = found[1].replace(r"\%", "%").split("$")
-        return "".join(piece if i % 2 else rf"\text{{{piece}}}" for i, piece in enumerate(pieces) if piece)
+        return "".join((f"{{}}{piece}" if piece[0] in "^_" else piece) if i % 2 else rf"\text{{{piece}}}"
+                       for i, piece in enumerate(pieces) if piece)
 
     apart = re.sub(r"\\text\{((?:[^{}$]|\$[^$]*\$)*)\}", parts, latex)
     return apart.replace(r"\left\{", r"\{").replace(r"\right\}", r"\}").replace(r"\arg \min", r"\mathrm{arg}\min")

@@ -26,6 +26,9 @@ _ACCENTED = re.compile(rf"(?<![\w.$\\{{-])({_NAMES}|eps|[A-Za-z])-(hat|tilde|bar
 _GREEK = re.compile(rf"(?<![\w.$\\{{])({_NAMES}|eps)(\*|\^\d)?(?!\w|\.\w)")
 _STARRED = re.compile(r"(?<![\w$\\{*])([A-Za-z])\*(?![\w*])")
 _DERIVED = re.compile(r"(?<![\w$\\{'])([A-Za-z])'(?!\w)")
+_UNIT = re.compile(r"(?<![\w$/])(k?N|m)/(s|m)\^2(?!\w)")
+# What a formula is raised to, or its prime, behind it.
+_BEHIND = re.compile(r"\$([^$]*[^$^{}]|[^$]*\})\$(?:\$\{\}(\^\{[^$]*\})\$|('+)(?!\w))")
 _RAISED = re.compile(r"\^(?:\{(-?\w+)\}|\((-?\w+(?:[-+/]\w+)?)\)|(-?\d+|T\b|i\b|[-+](?!\w)))")
 
 
@@ -33,6 +36,7 @@ def worded(text: str) -> str:
     """A note or title with its letters, such as z_1 or rho_hat, as formulas between dollar signs."""
     for typed, sign in _SIGNS:
         text = text.replace(typed, sign)
+    text = _outside(text, _UNIT, lambda found: rf"$\mathrm{{{found[1]}/{found[2]}^2}}$")
     text = _outside(text, _EXPONENTIAL, lambda found: rf"$\mathrm{{{found[1]}}}^{{{_spelled(found[2])}}}$")
     text = _outside(text, _INDEXED, lambda found: f"${_greek(found[1])}_{{{_spelled(found[2] or found[3])}}}$")
     text = _outside(text, _LETTER, _as_formula)
@@ -41,7 +45,8 @@ def worded(text: str) -> str:
     text = _outside(text, _GREEK, lambda found: f"${_greek(found[1])}{(found[2] or '').replace('*', '^*')}$")
     text = _outside(text, _STARRED, lambda found: f"${found[1]}^*$")
     text = _outside(text, _DERIVED, lambda found: f"${found[1]}'$")
-    return _outside(text, _RAISED, lambda found: f"${{}}^{{{found[1] or found[2] or found[3]}}}$")
+    text = _outside(text, _RAISED, lambda found: f"${{}}^{{{found[1] or found[2] or found[3]}}}$")
+    return _BEHIND.sub(lambda found: found[0] if "^" in found[1] else f"${found[1]}{found[2] or found[3]}$", text)
 
 
 def _outside(text: str, pattern: re.Pattern[str], formula: Callable[[re.Match[str]], str]) -> str:

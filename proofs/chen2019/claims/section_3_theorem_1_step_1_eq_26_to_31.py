@@ -44,13 +44,13 @@ def _starts_at_zero(*extra: Relation) -> Goal:
 @paper.claim("A3", "Assumption 3 makes V_i start at zero", "implication",
              r"\text{$V_{i}(t) = \int_0^t \dot{V}_i(\tau) d\tau$ indicated by Assumption 3, $s_i(0) = s_r(0)$ and "
              r"$v_i(0) = v_r(0)$}", "gap", match="words",
-             reading="s_i(0) = s_r(0) and v_i(0) = v_r(0) imply V_i(0) = 0.", scope=EACH_CAR,
+             severity="cosmetic", reading="s_i(0) = s_r(0) and v_i(0) = v_r(0) imply V_i(0) = 0.", scope=EACH_CAR,
              correction=lambda: _starts_at_zero(*lambda_zero),
              corrected_statement=r"s_i(0) = s_r(0),\ v_i(0) = v_r(0),\ \lambda_{1,i}(0) = \lambda_{2,i}(0) = 0 "
                                  r"\Rightarrow V_i(0) = 0",
              note="z contains lambda, whose initial value Assumption 3 does not name. It must be zero in every "
-                  "iteration; before (51) the paper calls just that a fact, so this is an omission, mended by "
-                  "A3.lambda.")
+                  "iteration; before (51) the paper calls just that a fact. It belongs into Assumption 3, and nothing "
+                  "hangs on that it does not stand there (A3.lambda).")
 def starts_at_zero() -> Goal:
     """V at the initial state that Assumption 3 names."""
     return _starts_at_zero()
@@ -152,7 +152,7 @@ def _learning_bound(number: int) -> None:
     keys = {change_of(x): change, driving: driven} | dict(zip(MIDDLE_OF_27, middle, strict=True))
 
     @paper.claim(equation, f"Change of the squared error with gain {gain}", "inequality", rf"{left} {lines}\le {right}",
-                 "proved", scope=EVERY_TRAIN, where=keys, rests_on=("31.place",) if x == "eta" else (),
+                 "proved", scope=EVERY_TRAIN, where=keys, rests_on=(),
                  reading="Integrals are states that start at zero; that they are linear in the integrand is used.",
                  note="What is dropped is the square of the step. It supposes the same true parameter in both "
                       "iterations" + ("; see 31.place." if x == "eta" else "."))
@@ -171,10 +171,12 @@ place, place_before, slope, tilde_eta = sp.symbols("s s_prev f_slope eta_tilde_p
 @paper.claim("31.place", "(31) for an additional resistance that depends on the place", "implication",
              r"f^a_{i,j}(t) = f^a(s_{i,j}(t)) \Rightarrow \frac{1}{2\gamma_\eta}\left(\|\tilde\eta_i\|^2 - "
              r"\|\tilde\eta_{i-1}\|^2\right) \le c_3 z_{2,i}^T\tilde\eta_i", "gap", origin="implied", scope=EACH_CAR,
-             note="The paper ascribes f^a to slopes, tunnels and bridges and takes it for a function of time alone. "
-                  "These depend on the place, and two iterations are at different places at the same time, so eta "
-                  "differs between them and (31) fails; in the counterexample f^a is linear in the place. (31) itself "
-                  "stands for an f^a of time alone.")
+             rests_on=(), severity="data",
+             reading="Below (3) the paper says that slopes, tunnels and bridges cause f^a, and takes it for a function of "
+                     "time that no state enters; here it is one of the place, as these are.",
+             note="For an f^a of time alone, as the paper assumes it, (31) and Theorem 1 stand as they are. Two iterations "
+                  "are at different places at the same time, so that with slopes eta differs between them and (31) fails; "
+                  "in the counterexample f^a is linear in the place. It limits what the theorem is about, not its proof.")
 def same_place_in_every_iteration() -> Goal:
     """(31) at one instant with f^a = f_slope s."""
     hat = tilde_eta + slope * place_before + gamma_eta * c_3 * z_car

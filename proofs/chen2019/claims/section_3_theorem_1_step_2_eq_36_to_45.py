@@ -201,7 +201,7 @@ bound_rate, E_rate, clock = sp.symbols("beta w_E t", real=True)
 @paper.claim("45.bounded", "E_1 is bounded on [0, T]", "implication",
              r"\text{It can draw conclusion from (45) that $E_1$ is bounded in the finite interval [0, T] since the right "
              r"side of (45) is a continuous iteration-independent function.}", "proved", match="words",
-             premises=("45.glyph", "A3.lambda"), rests_on=("A3", "45"),
+             premises=("45.glyph", "A3.lambda"), rests_on=("45",),
              reading="With beta the largest value of the right side of (45) on [0, T], E_1' <= beta and E_1(0) = 0 give "
                      "E_1(t) <= beta t.",
              note="It rests on solutions that exist on [0, T]; bounded parameters suffice, the paper asks for continuous "

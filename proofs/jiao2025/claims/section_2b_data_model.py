@@ -32,7 +32,8 @@ def _input_history() -> Goal:
              correction=_input_history,
              corrected_statement=r"|\Delta v(k+1,i)| \le \tfrac{T_s}{M}\sum_{j=0}^{k}|\Delta u_f(j,i)|\ "
                                  r"(0 \le a \le 1,\ \Delta v(0,i) = 0)",
-             note="For Delta u not zero, held against the train, since Remark 2 calls it a mechanical property that every train has. The train breaks it for every p (A2.every): its "
+             reading="Of the train (1)-(3), for Delta u not zero: Remark 2 calls it a mechanical property of the train.",
+             note="The train breaks it for every p (A2.every): its "
                   "speed also differs because earlier inputs differed, however small Delta u(k) is. Here p is taken "
                   "at least T_s/M, which the input's own effect needs. True is the bound by all earlier inputs, proved as its step from k to k+1. "
                   "A bounded phi_c for the train, and with it Theorem 1 for the train, rest on the false form.")
@@ -154,8 +155,8 @@ def unchanged_input_of_the_train() -> Goal:
 
 @paper.claim("A4", "Assumption 4: phi_c is positive", "inequality", r"\phi_c(k, i) > \bar{\varepsilon} > 0", "refuted",
              premises=("5",), rests_on=(), where={r"\phi_c(k, i)": phi_train},
-             reading="Decided as the least that it says, whatever the bound: phi_c is nowhere negative.",
-             note="Held against the train: slower after the earlier inputs and pushed a little harder now, it is still slower, and phi_c is "
+             reading="Of the train (1)-(3), as Remark 4 argues for it. Decided as the least that it says, whatever the bound: phi_c is nowhere negative.",
+             note="Slower after the earlier inputs and pushed a little harder now, it is still slower, and phi_c is "
                   "negative (-1 for T_s/M = a = Delta u(k,i) = 1 and Delta v(k,i) = -2); it takes every value (A4.every), so no bound serves. Positive is dv(k+1)/du(k) = T_s/M (A1), which is what Remark 4 argues with.")
 def positive_pseudo_derivative() -> Goal:
     """phi_c of the train for any 0 < a <= 1."""

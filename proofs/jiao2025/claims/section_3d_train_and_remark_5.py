@@ -8,7 +8,7 @@ import sympy as sp
 
 from workbench.proof.claim import Goal, Relation, at_least, at_most, differ, equal, greater, less
 
-from ..laws import e_next, e_prev, epsilon, input_step, lamda, phi_first, phi_i, rho
+from ..laws import e_prev, epsilon, input_step, lamda, phi_first, rho
 from ..notation import Delta_v_k, p_k, v_d
 from ..paper import paper
 from ..plant import M, T_s, next_speed, u_i, u_prev, v_i
@@ -125,12 +125,10 @@ coasted_odd, coasted_even = sp.symbols("w_odd w_even", real=True)  # what (1) ma
 
 def _odd_and_even() -> tuple[sp.Expr, tuple[Relation, ...]]:
     """The first sample of the train in odd and even trials: the error of the even ones, and (14) from each to the other."""
-    law, = paper.shown("14")
     odd = v_d - (coasted_odd + T_s / M * u_prev)
-    step = law.right.xreplace({e_next: odd, phi_i: phi_first}) - u_prev
+    step = input_step(phi_first, odd)  # (14)
     even = v_d - (coasted_even + T_s / M * (u_prev + step))
-    back = law.right.xreplace({e_next: even, phi_i: phi_first}) - u_prev
-    return even, (equal(step + back, 0), at_most(step**2, epsilon**2))  # the second test of (13): the estimate in use is the first one
+    return even, (equal(step + input_step(phi_first, even), 0), at_most(step**2, epsilon**2))  # the second test of (13): the estimate in use is the first one
 
 
 @paper.claim("remark5", "Remark 5: identical initial conditions are not needed", "limit",
@@ -138,12 +136,13 @@ def _odd_and_even() -> tuple[sp.Expr, tuple[Relation, ...]]:
              premises=("1", "13", "14"), rests_on=("theorem1", "6"), severity="result", closed_loop=True, match="words",
              reading="A motion of the train (1)-(3) under (13)-(15) that repeats itself every second trial has no error at the first sample, whatever its initial speeds.",
              note="With initial speeds that alternate between two values the error at the first sample alternates and never shrinks (its size for a fixed estimate: remark5.persists). The input "
-                  "changes by at most epsilon, so that (13) puts the first estimate back in every trial and the motion is exact; with the signs of all speeds turned it is one too. The proof does not see it because "
+                  "changes by at most epsilon, so that (13) puts the first estimate back in every trial and the motion is exact. The proof does not see it because "
                   "(5) takes all of Delta v(1,i) for an effect of Delta u(0,i).")
 def start_does_not_matter() -> Goal:
     """Both trials of the motion, by (1) and (14); the first estimate is above epsilon."""
     error, loop = _odd_and_even()
-    return Goal((equal(error, 0),), (*loop, greater(phi_first, epsilon), at_most(rho, 1), greater(lamda, rho**2 * (T_s / M) ** 2 / 4)))
+    forward = (greater(v_d, 0), at_least(coasted_odd, 0), at_least(coasted_even, 0))
+    return Goal((equal(error, 0),), (*loop, *forward, greater(phi_first, epsilon), at_most(rho, 1), greater(lamda, rho**2 * (T_s / M) ** 2 / 4)))
 
 
 @paper.claim("remark5.distribution", "Remark 5: the condition of convergence does not depend on p(k)", "implication",

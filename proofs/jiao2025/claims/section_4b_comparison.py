@@ -29,11 +29,11 @@ def pd_law() -> Goal:
 
 
 @paper.claim("18.name", "(18) is of PD type: K_p is the gain of the error, K_d that of its difference", "identity",
-             r"\text{the improved PD-type ILC is designed as (18)}", "refuted", premises=("18",), severity="data", match="words",
-             reading="A PD law moves the input by K_p e*(k) + K_d [e*(k+1) - e*(k)].",
+             r"\text{the improved PD-type ILC is designed as (18)}", "refuted", premises=("18",), severity="cosmetic", match="words",
+             reading="A matter of the name alone, since (18) says what the law is: a PD law moves the input by K_p e*(k) + K_d [e*(k+1) - e*(k)].",
              correction=lambda: Goal((equal(u_i - u_prev, (K_p + K_d) * e_now + K_p * (e_next - e_now)),), paper.shown("18")),
              corrected_statement=r"u_f(k,i) - u_f(k,i-1) = (K_p + K_d)\,e^*(k,i-1) + K_p[e^*(k+1,i-1) - e^*(k,i-1)]",
-             note="As printed the proportional gain is 1004.46 and the gain of the difference 4.46: what is called K_d "
+             note="In the printed law the proportional gain is 1004.46 and the gain of the difference 4.46: what is called K_d "
                   "acts on a constant error, and K_p is the gain of the D part. It matters for the comparison of Figures 5 to 7, where this law is the other one.")
 def pd_type() -> Goal:
     """The step of (18) against that of a PD law with the same gains."""
@@ -110,7 +110,7 @@ sine_i, sine_prev = sp.symbols("sin_i sin_prev", real=True)
                   "long they go on. f_a can change with the speeds of a trial, not with its length.")
 def resistance_by_length() -> Goal:
     """(2) at the same place in trials of different lengths."""
-    return Goal((differ(f_a_i, f_a_prev),), (equal(f_a_i, slope_coefficient * sine_i), equal(f_a_prev, slope_coefficient * sine_prev), equal(sine_i, sine_prev), differ(length_i, length_prev), at_least(length_i, 1), at_least(length_prev, 1)))
+    return Goal((differ(f_a_i, f_a_prev),), (equal(f_a_i, slope_coefficient * sine_i), equal(f_a_prev, slope_coefficient * sine_prev), equal(sine_i, sine_prev), greater(f_a_i, 0), differ(length_i, length_prev), at_least(length_i, 1), at_least(length_prev, 1)))
 
 
 paper.axiom("figure5", "Figures 5 and 6: tracking gets better from trial to trial",

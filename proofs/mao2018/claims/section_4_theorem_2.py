@@ -183,8 +183,8 @@ TRACKS = ("Shown for all times after the last failure: V_2, and so every estimat
                         "(7)-(8) with actuator failures (13)-(15)", "the "), "refuted",
              match="words", severity="result", closed_loop=True, rests_on=("47", "47.finite", "43"), scope=ALL_SIGNALS,
              reading=SQUARE_IN_TIME + "Decided as z_1^2 <= 1/4 from some time on.",
-             note="False as printed: " + STEADY_STATE_ERROR + "The cause is the sign of (44); with it mended (45) holds "
-                  "when all modes have one mass, as in section VIII, and Theorem 2 with it.")
+             note="False as printed: " + STEADY_STATE_ERROR + "The cause is the sign of (44), on which all of it hangs: with a plus "
+                  "there (45) holds when all modes have one mass, as in section VIII, and Theorem 2 with it.")
 def theorem_2() -> Goal:
     """The printed closed loop, with a motion along which z_1 = 1."""
     return steady_state_error(at_most(z_1**2, epsilon), nu_failed, {epsilon: sp.Rational(1, 4), lambda_0: sp.Integer(1)},

@@ -225,14 +225,24 @@ def v2_bound_unknown_mended() -> Goal:
              match="words", severity="result", closed_loop=True, rests_on=("57",), scope=ALL_SIGNALS,
              reading=SQUARE_IN_TIME + "Decided as z_1^2 <= 1/4 from some time on.",
              note="False as printed: " + STEADY_STATE_ERROR + "rho_knu_hat starts at its true value here, and lambda_hat falls "
-                  "from 1 without end. Mended as (45) and (57) are, Theorem 4 holds. The text before it names (48) and (52) "
-                  "where (55) and (57) are meant.")
+                  "from 1 without end; with a plus in (54) there is such a motion too (theorem4.reading). Mended as (45) and "
+                  "(57) are, Theorem 4 holds. The text before it names (48) and (52) where (55) and (57) are meant.")
 def theorem_4() -> Goal:
     """The printed closed loop, with a motion along which z_1 = 1."""
-    one = sp.Integer(1)
-    return steady_state_error(at_most(z_1**2, epsilon), nu_unknown,
-                              {epsilon: sp.Rational(1, 4), lambda_0: one, Gamma_d: sp.Integer(16)}, *disturbed,
-                              lambda_law=lambda_law)
+    return _error_stays(lambda_law)
+
+
+def _error_stays(law: sp.Expr) -> Goal:
+    constants = {epsilon: sp.Rational(1, 4), lambda_0: sp.Integer(1), Gamma_d: sp.Integer(16)}
+    return steady_state_error(at_most(z_1**2, epsilon), nu_unknown, constants, *disturbed, lambda_law=law)
+
+
+@paper.claim("theorem4.reading", "The same with a plus in (54)", "limit", r"\dot{\hat\lambda}_i^0 = +\Gamma_{di}|z_2|\chi_{\bar di} "
+             r"\Rightarrow \lim_{t\to\infty} e(t) = 0", "refuted", origin="ours", closed_loop=True, rests_on=(), scope=ALL_SIGNALS,
+             note="lambda_hat = 1 + 16 t grows, and rho_knu_hat starts at -1/15.")
+def theorem_4_in_the_other_reading() -> Goal:
+    """(44) as printed, (54) with the sign that makes it serve."""
+    return _error_stays(lambda_law_true)
 
 
 @paper.claim("theorem4.mended", "Theorem 4 with (44), (54) and the weights of V_2 mended", "implication",

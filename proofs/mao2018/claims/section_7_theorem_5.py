@@ -155,13 +155,24 @@ damped_constants: Flow = {lambda_0: sp.Integer(1), b_0: sp.Integer(1), c_0: sp.I
              rests_on=("65", "65.bounded"), scope=ALL_SIGNALS,
              reading="Decided as what a bounded xi_hat^T varpi would give, (xi_hat^T varpi)^2 <= t from some time on. "
                      "(61), (62) belong to the laws, which the theorem's list leaves out.",
-             note="False as printed: " + STEADY_STATE_ERROR + "Delta_b = Delta_c = 0 and k_1 = k_2 = 1. Mended as (45) and (65) "
-                  "are, (65) holds, but boundedness of the estimates still does not follow from it (65.bounded); with "
+             note="False as printed: " + STEADY_STATE_ERROR + "Delta_b = Delta_c = 0 and k_1 = k_2 = 1; with a plus before "
+                  "nu_Delta in (61) there is such a motion too (theorem5.reading). Mended as (45) and (65) are, (65) holds, but boundedness of the estimates still does not follow from it (65.bounded); with "
                   "leakage it does, as certificates/gains/leakage.bounded.json shows.")
 def theorem_5() -> Goal:
     """The printed closed loop, with a motion along which xi_hat grows without end."""
     return steady_state_error(at_most(Xi_hat**2, t), nu_failed, {**damped_constants, k_1: sp.Integer(1), k_2: sp.Integer(1)},
                            *disturbed, *uncertain, damped=True)
+
+
+@paper.claim("theorem5.reading", "The same with a plus before nu_Delta in (61)", "limit", r"\dot{\hat\rho}_i = -\gamma_{mi}z_2("
+             r"\nu_\Delta + \zeta_i - \eta - r_2z_2)\chi_{mi} \Rightarrow \lim_{t\to\infty} e(t) = 0", "refuted", origin="ours",
+             closed_loop=True, rests_on=(), scope=ALL_SIGNALS,
+             note="At k_1 = k_2 = 1000, so that it decides Remark 4 in that reading as well; xi_hat grows like t.")
+def theorem_5_in_the_other_reading() -> Goal:
+    """(44) as printed, (61) with the sign that makes it serve."""
+    return steady_state_error(at_most(z_1**2, epsilon), nu_failed,
+                           {**damped_constants, epsilon: sp.Rational(1, 4), k_1: sp.Integer(1000), k_2: sp.Integer(1000)},
+                           *disturbed, *uncertain, damped=True, turned=True)
 
 
 @paper.claim("remark4.constant", "The constant of (65) can be made as small as desired", "implication",

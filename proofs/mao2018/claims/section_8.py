@@ -41,8 +41,8 @@ def ramp_continuous() -> Goal:
 
 
 @paper.claim("VIII.continuous", "The parameters of the simulation do not change abruptly", "condition",
-             r"\text{the change of the parameters of the train dynamic motion model are not abrupt}\ldots c_1 = 1.12 \times "
-             r"10^{-6},\ c_2 = 9.12 \times 10^{-6}", "violated", severity="cosmetic", match="words",
+             r"\text{the change of the parameters of the train dynamic motion model are not abrupt [section I]; } c_1 = 1.12 "
+             r"\times 10^{-6},\ c_2 = 9.12 \times 10^{-6} \text{ [section VIII]}", "violated", severity="cosmetic", match="words",
              reading="c on both sides of the tunnel's portal must agree.",
              at={c_before: exact_decimal(modes[0]["c_kn_s2_per_m2"]), c_after: exact_decimal(modes[1]["c_kn_s2_per_m2"])},
              note="The introduction motivates the indicators by parameters that do not change abruptly. In section "

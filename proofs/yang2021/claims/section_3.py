@@ -16,7 +16,7 @@ from ..error_dynamics import EVERY_NETWORK, W_star, epsilon, h
 from ..laws import W_hat, chi, x_2
 from ..paper import paper
 
-error_f, weight, rest_f, eta, varpi = sp.symbols("f w f_rest eta varpi", real=True)
+error_f, weight, rest_f, eta, varpi = sp.symbols("f w_j f_rest eta varpi", real=True)
 width = sp.Symbol("b_j", positive=True)
 x_i, c_ji = sp.symbols("x_i c_ji", real=True)
 q_rest, squared = sp.symbols("q_rest q", nonnegative=True)  # squared distances
@@ -168,13 +168,15 @@ one_h = sp.Symbol("h", positive=True)
 @paper.claim("37.weights", "One law moves the weights", "implication",
              r"\Delta w_j = \eta[f - \hat{f}]h_j\ \text{and}\ \dot{\hat{W}} = \chi e_2h - \chi\hat{W}", "gap", origin="implied",
              severity="data", section="5.1",
+             reading="Taken where the network fits f exactly, so that it does not matter in which steps of time (10) counts.",
              note="(10), (11) and (37) each give the rate of the same weights, and section 6.1 states eta and the momentum "
-                  "factor of the one beside chi of the other. They are two laws; which one runs is not said.")
+                  "factor of the one beside chi of the other. They are two laws: where the network is exact, (10) leaves the "
+                  "weights as they are and (37) draws them to zero. Which one runs is not said.")
 def one_law() -> Goal:
     """A step of (10) is in the direction of (37)."""
     error_2 = sp.Symbol("e_2", real=True)
     return Goal((equal(eta * residual(one_h) * one_h, chi * error_2 * one_h - chi * weight),),
-                (greater(eta, 0), less(eta, 1), at_most(one_h, 1)))
+                (greater(eta, 0), less(eta, 1), at_most(one_h, 1), equal(residual(one_h), 0)))
 
 
 f_network = over_neurons(W_star * h) + epsilon

@@ -22,8 +22,8 @@ u_max, u_common = sp.symbols("u_max u_common", positive=True)
              r"at about 0.6 m/s$^2$}", "violated",
              match="words", severity="cosmetic", at={u_max: Fraction(48, 100), u_common: Fraction(6, 10)},
              reading="No input of Figure 8 is above its maximum, so what it is kept at is at most 0.48.",
-             note="Where the maximum is that of the start alone, which the sentence may mean, the two figures fit each other: "
-                  "so the scenario that is run takes them.")
+             note="The maximum may be meant as that of the start alone, and then the two numbers fit each other. As the "
+                  "sentence stands it is the maximum of Figure 8.")
 def input_below_its_maximum() -> Goal:
     """0.6 against 0.48."""
     return Goal((at_most(u_common, u_max),))

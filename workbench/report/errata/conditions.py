@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from workbench.report.certificate_latex import expression_latex, name_latex, rate_latex, relation_latex
+from workbench.report.certificate_latex import expression_latex, name_latex, rate_latex
 from workbench.report.errata.blocks import Block, Formula, Paragraph
 
 LONGEST = 900  # characters of a formula beyond which its parts stand below each other
@@ -14,13 +14,14 @@ MOST_GIVEN = 6000  # characters of all conditions beyond which a reader is sent 
 COMMA = r",\ "
 
 
-def premises(goal: Mapping[str, Any]) -> dict[str, list[str]]:
-    """What a goal of a certificate assumes, by when it is assumed, as LaTeX."""
-    return {"Given": [relation_latex(text) for text in goal.get("assume", ())],
-            "At all times": [relation_latex(text) for text in goal.get("always", ())],
-            "At first": [f"{name_latex(name)} = {expression_latex(text)}"
-                         for name, text in goal.get("initial", {}).items()],
-            "Along": [rate_latex(name, rate) for name, rate in goal.get("flow", {}).items()]}
+def motion(goal: Mapping[str, Any]) -> dict[str, list[str]]:
+    """Where a goal's motion begins and what it obeys, by what stands in front of it, as LaTeX; no more of what stays
+    as it is."""
+    initial, flow = goal.get("initial", {}), goal.get("flow", {})
+    moving = [name for name in flow if flow[name] != "0" or initial.get(name) != name]
+    return {"At first": [f"{name_latex(name)} = {expression_latex(initial[name])}" for name in initial
+                         if name in moving],
+            "Along": [rate_latex(name, flow[name]) for name in moving]}
 
 
 def listed_conditions(conditions: Mapping[str, Sequence[str]], beside: Sequence[str] = ()) -> list[Block]:

@@ -8,9 +8,10 @@ from workbench.proof.checker import goal_digest
 from workbench.proof.verdict import Decision
 from workbench.proof.wording import listed
 from workbench.report.errata.blocks import Block, Code, Formula, Heading, Items, Paragraph
-from workbench.report.errata.conditions import listed_conditions, premises
-from workbench.report.errata.names import legend, name_of_line, noted
-from workbench.report.errata.proof_steps import proof_steps
+from workbench.report.errata.conditions import listed_conditions, motion
+from workbench.report.errata.letters import letters_of
+from workbench.report.errata.names import name_of_line, noted
+from workbench.report.errata.proof_steps import HOW_TO_READ, proof_steps
 
 MOST_STEPS = 120  # lines of a proof beyond which a reader is sent to the certificate
 CHECKER = "checker.py"
@@ -26,7 +27,8 @@ def mended_statements(decisions: Sequence[Decision], titles: Mapping[str, str],
     for d in mended:
         blocks += [Heading(3, f"{name_of_line(headlines[str(d.claim.mends)])}, mended"),
                    *_stated(d, by_id, titles), *_proof(d, letters)]
-    found: list[Block] = [Heading(2, "The headline statements, mended and proved"), *blocks] if blocks else []
+    found: list[Block] = [Heading(2, "The headline statements, mended and proved"), Paragraph(HOW_TO_READ),
+                          *blocks] if blocks else []
     lemmas = _lemmas(mended, by_id)
     if lemmas:
         found.append(Heading(2, "The lines that these proofs use"))
@@ -71,10 +73,11 @@ def _verdict(d: Decision) -> str:
 def _proof(d: Decision, letters: Mapping[str, str]) -> list[Block]:
     """What letters are, what is given, the steps, and how to re-check them."""
     certificate = d.certificate or {}
-    told, steps = legend(certificate, letters), proof_steps(certificate)
-    blocks: list[Block] = [Paragraph(told, "Letters")] if told else []
-    blocks += [*listed_conditions(premises(certificate["goal"])), Items(tuple(steps[:MOST_STEPS]))]
-    if len(steps) > MOST_STEPS:
-        blocks.append(Paragraph(f"{len(steps) - MOST_STEPS} more steps stand in the certificate."))
-    return [*blocks, Code(f"python {CHECKER} certificates/{d.claim.equation}.json --claim-digest "
-                          f"{goal_digest(certificate)}")]
+    own, proof = letters_of(certificate, letters), proof_steps(certificate)
+    given = {"Given": [*proof.signs, *proof.given], "At all times": proof.always}
+    blocks: list[Block] = [*listed_conditions(given | motion(certificate["goal"])), Items(proof.lines[:MOST_STEPS])]
+    if len(proof.lines) > MOST_STEPS:
+        blocks.append(Paragraph(f"{len(proof.lines) - MOST_STEPS} more steps stand in the certificate."))
+    told = own.legend(blocks)
+    return [*([Paragraph(told, "Letters")] if told else []), *own.in_blocks(blocks),
+            Code(f"python {CHECKER} certificates/{d.claim.equation}.json --claim-digest {goal_digest(certificate)}")]

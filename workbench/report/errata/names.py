@@ -1,18 +1,13 @@
-"""How a reader of the paper calls its lines, and what letters are that the paper does not have."""
+"""How a reader of the paper calls its lines."""
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Mapping
-from typing import Any
 
 from workbench.proof.places import place_of
 from workbench.proof.verdict import Decision
-from workbench.report.certificate_latex import name_latex
 from workbench.report.worded import worded
-
-_NAME = re.compile(r"[A-Za-z_]\w*")
 
 
 def noted(note: str, titles: Mapping[str, str]) -> str:
@@ -32,10 +27,3 @@ def _in_sentence(place: str) -> str:
 def name_of_line(d: Decision) -> str:
     """The name of a line, its part told by what it says."""
     return worded(place_of(d.claim.equation, d.claim.title))
-
-
-def legend(certificate: Mapping[str, Any], letters: Mapping[str, str]) -> str:
-    """What the letters of a certificate's goal stand for that are not the paper's; empty where it has none."""
-    named = set(_NAME.findall(json.dumps(certificate["goal"])))
-    told = [f"${name_latex(name)}$ is {worded(text)}" for name, text in letters.items() if name in named]
-    return f"{'; '.join(told)}." if told else ""

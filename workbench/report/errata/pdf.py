@@ -13,9 +13,14 @@ from workbench.report.worded import show
 HEAD = """#set document(date: none)
 #set page(paper: "a4", margin: (x: 24mm, y: 22mm), numbering: "1 / 1")
 #set text(font: "New Computer Modern", size: 10.5pt, lang: "en")
-#set par(justify: true, leading: 0.6em)
+#set par(leading: 0.6em)
 #show heading: set block(above: 1.4em, below: 0.8em, breakable: false)
 #show raw: set text(size: 7pt)
+#let tall(body) = {
+  show math.equation: set text(top-edge: "bounds", bottom-edge: "bounds")
+  body
+}
+#show list: tall
 """
 
 
@@ -34,8 +39,11 @@ def typst_source(blocks: Sequence[Block]) -> str:
 
 
 def _formula(latex: str, label: str) -> str:
-    above = f"#block(below: 0.55em)[#text(8.5pt, gray.darken(40%), {quoted(label)})]\n" if label else ""
-    return f"#block(inset: (left: 1em), above: 0.9em)[{above}{typst_formula(latex, display=True)}]"
+    """A label keeps to the formula below it, over the end of a page too."""
+    words = f"#text(8.5pt, gray.darken(40%), {quoted(label)})"
+    above = f"#block(inset: (left: 1em), above: 0.9em, below: 0.55em, sticky: true)[{words}]\n" if label else ""
+    space = ", above: 0.55em" if label else ", above: 0.9em"
+    return f"{above}#block(inset: (left: 1em){space})[#tall[{typst_formula(latex, display=True)}]]"
 
 
 def _text(text: str) -> str:

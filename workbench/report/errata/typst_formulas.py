@@ -37,7 +37,8 @@ def _converted(latex: str, display: bool) -> str:
         if row:
             pieces.append(f"${_row(row, display)}$")
         if part is not None:
-            pieces.append(f"#{quoted((part.text or '').replace(chr(160), ' '))};")
+            text = (part.text or "").replace(chr(160), " ")
+            pieces.append(f"#{quoted(f' {text}' if pieces and text[:1].isalnum() else text)};")
         row = []
     return "".join(pieces)
 

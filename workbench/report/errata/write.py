@@ -22,9 +22,9 @@ NO_PDF = "errata.pdf is not written, because Typst is not installed: pip install
 
 
 def errata_texts(decisions: Sequence[Decision], citation: str,
-                 letters: Mapping[str, str] | None = None) -> dict[str, str]:
-    """The text of every file but the PDF, by its name; letters: as `errata` takes them."""
-    blocks = errata(decisions, citation, letters)
+                 letters: Mapping[str, str] | None = None, at_hand: bool = True) -> dict[str, str]:
+    """The text of every file but the PDF, by its name; letters, at_hand: as `errata` takes them."""
+    blocks = errata(decisions, citation, letters, at_hand)
     document = {"version": 1, **findings_document(findings(decisions))}
     title = f"Corrections: {citation}"
     return {"errata.md": markdown(blocks), "errata.tex": latex_document(blocks),
@@ -33,18 +33,18 @@ def errata_texts(decisions: Sequence[Decision], citation: str,
 
 
 def write_errata(decisions: Sequence[Decision], citation: str, out: Path,
-                 letters: Mapping[str, str] | None = None) -> tuple[list[Path], str | None]:
-    """Write the errata of a paper into a folder; the files, and what could not be written in one line. letters: as
-    `errata` takes them.
+                 letters: Mapping[str, str] | None = None, at_hand: bool = True) -> tuple[list[Path], str | None]:
+    """Write the errata of a paper into a folder; the files, and what could not be written in one line. letters,
+    at_hand: as `errata` takes them.
 
     Raises InputError where the folder cannot be written.
     """
     make_folder(out, out, ANOTHER_FOLDER)
     written = []
-    for name, text in errata_texts(decisions, citation, letters).items():
+    for name, text in errata_texts(decisions, citation, letters, at_hand).items():
         write_text(out / name, text, ANOTHER_FOLDER)
         written.append(out / name)
-    pdf = pdf_of(errata(decisions, citation, letters))
+    pdf = pdf_of(errata(decisions, citation, letters, at_hand))
     if pdf is None:
         return written, NO_PDF
     write_bytes(out / "errata.pdf", pdf, ANOTHER_FOLDER)

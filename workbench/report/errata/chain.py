@@ -1,0 +1,68 @@
+"""What rests on a line that fails, and what it rests on, in sentences that name corrections by their numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import groupby
+
+from workbench.proof.fate import is_headline
+from workbench.proof.places import places_of
+from workbench.proof.verdict import Decision
+from workbench.proof.wording import listed
+from workbench.report.finding import Finding
+from workbench.report.worded import worded
+
+NAMED = 3  # lines up to which each is named
+
+
+def resting_lines(decisions: Sequence[Decision]) -> dict[str, list[str]]:
+    """The equations of the lines that rest on each failing one and are no headline statements, by its equation."""
+    found: dict[str, list[str]] = {}
+    for d in decisions:
+        if d.claim.origin != "ours" and not is_headline(d):
+            for name in d.tainted_by:
+                found.setdefault(name.partition(":")[2], []).append(d.claim.equation)
+    return found
+
+
+def consequence(found: Finding, numbers: Mapping[str, int], lines: Sequence[str], titles: Mapping[str, str]) -> str:
+    """What rests on a line and what it rests on that fails; empty where neither is. numbers: of the corrections, by
+    equation; lines: those that rest on it and are no headline statements."""
+    resting = [worded(place) for place in places_of(found.headlines)]
+    about = corrections(found.headlines, numbers)
+    if resting and about:
+        resting[-1] += f" ({about})"
+    if len(lines) <= NAMED:
+        resting += [worded(place) for place in places_of(lines, titles)]
+    else:
+        resting.append(f"{len(lines)} {'other ' if resting else ''}lines")
+    one = len(found.headlines) + len(lines) == 1
+    text = f"{listed(resting)} rest{'s' if one else ''} on it." if resting else ""
+    if found.because and found.gravity != "corrected":
+        text = f"{text} {_way(found, numbers)}".strip()
+    return text[:1].upper() + text[1:]
+
+
+def _way(found: Finding, numbers: Mapping[str, int]) -> str:
+    """The failing lines on the way; what holds in its other reading is told apart."""
+    failing = [line for line in found.because if line not in found.otherwise]
+    by = []
+    if failing and len(failing) <= NAMED:
+        about = corrections(failing, numbers)
+        by.append(f"by {worded(listed(places_of(failing, found.titles)))}{f' ({about})' if about else ''}, which "
+                  f"{'fails' if len(failing) == 1 else 'fail'}")
+    elif failing:
+        by.append(f"by lines that fail ({corrections(failing, numbers)})")
+    if found.otherwise:
+        fail = "fails as extracted and holds in its other reading" if len(found.otherwise) == 1 else (
+            "fail as extracted and hold in their other readings")
+        by.append(f"by {worded(listed(places_of(found.otherwise)))}, which {fail}")
+    return f"The paper gets there {', and '.join(by)}."
+
+
+def corrections(equations: Iterable[str], numbers: Mapping[str, int]) -> str:
+    """`correction 3`, `corrections 1, 4 to 7 and 9`; empty where none of the lines has one."""
+    told = sorted({numbers[equation] for equation in equations if equation in numbers})
+    runs = [[number for _, number in run] for _, run in groupby(enumerate(told), lambda pair: pair[1] - pair[0])]
+    words = [word for run in runs for word in ([f"{run[0]} to {run[-1]}"] if len(run) > 2 else map(str, run))]
+    return f"correction{'s' if len(told) > 1 else ''} {listed(words)}" if told else ""
