@@ -19,8 +19,8 @@ from numba.core.types.functions import BaseFunction
 from numba.core.types.misc import SliceType
 
 # What a function gives is known by these types alone; a literal is known by its value too, an array by what is in it.
-NUMBERS: set[type] = {types.Boolean, types.Float, types.Integer}
-INDICES: set[type] = NUMBERS | {types.IntegerLiteral, SliceType}
+SIMPLE: set[type] = {types.Boolean, types.Float, types.Integer}
+INDICES: set[type] = {types.IntegerLiteral, SliceType}
 _by_numba, _hash_by_numba, _equal_by_numba = BaseFunction.get_call_type, TargetConfig.__hash__, TargetConfig.__eq__
 
 
@@ -58,10 +58,10 @@ def _call_type(function: Any, context: Any, arguments: tuple[Any, ...], named: d
 def _is_simple(one: Any) -> bool:
     kind = type(one)
     if kind is types.Array:
-        return type(one.dtype) in NUMBERS
+        return type(one.dtype) in SIMPLE
     if kind in (UniTuple, Tuple):
-        return all(type(part) in INDICES for part in one)
-    return kind in INDICES
+        return all(type(part) in SIMPLE or type(part) in INDICES for part in one)
+    return kind in SIMPLE or kind in INDICES
 
 
 def _hash(options: Any) -> int:
