@@ -17,11 +17,11 @@ $(BIN)/pip:
 		{ echo "$(PYTHON) has no venv module: install it (on Debian or Ubuntu: apt install python3-venv)" >&2; exit 1; }
 	@$(PYTHON) -m venv $(VENV)
 
-# pip compiles on one core, the tests of all packages too; some files of packages are no Python of this version.
+# pip compiles on one core, tests and tools that run as they are too; some files of packages are no Python of this version.
 define INSTALL
 @echo "installing into $(VENV), in constraints.txt's versions: some minutes"
 @$(BIN)/python -m pip install -qq --no-compile --disable-pip-version-check -c constraints.txt -e ".[$(EXTRAS)]"
-@$(BIN)/python -m compileall -qq -j 0 -x '/tests?/' $(VENV)/lib || true
+@$(BIN)/python -m compileall -qq -j 0 -x '/(tests?|pip|setuptools|mypy|debugpy)/' $(VENV)/lib || true
 endef
 
 # A stamp is newer than the two files that say what to install, so that a second call does nothing. The demo waits for

@@ -46,9 +46,9 @@ def with_table(**changes):
     return replace(loaded, record=loaded.scenario.model_copy(update={"joint_sensitivity": stated}))
 
 
-def test_the_indices_of_ishigamis_function(tmp_path):
+def test_the_indices_of_ishigamis_function():
     """Known: variance 13.8446; first 0.3139, 0.4424, 0; total 0.5576, 0.4424, 0.2437."""
-    found = sensitivity(with_table(), tmp_path, workers=1, evaluate=ishigami)
+    found = sensitivity(with_table(), workers=1, evaluate=ishigami)
     assert np.var(found.values[:2048]) == pytest.approx(13.8446, rel=0.03)
     for of, known in ((found.indices.first, (0.3139, 0.4424, 0.0)), (found.indices.total, (0.5576, 0.4424, 0.2437))):
         assert [index.value for index in of] == pytest.approx(known, abs=0.02)
@@ -57,8 +57,16 @@ def test_the_indices_of_ishigamis_function(tmp_path):
     assert list(sensitivity_lines(found))[-1].startswith("x1 ")
     clear = sensitivity(with_table(samples=64), workers=1, evaluate=lambda _, v: 5 * v["x1"] + v["x2"])
     assert list(sensitivity_lines(clear))[-1].startswith("x1 decides most of it: 9")
+
+
+def test_every_run_is_a_row_with_its_values(tmp_path):
+    found = sensitivity(with_table(samples=16), tmp_path, workers=1, evaluate=ishigami)
     lines = (tmp_path / CSV_NAME).read_text(encoding="utf-8").splitlines()
-    assert lines[0] == "x1,x2,x3,f" and len(lines) == 1 + 5 * 1024
+    assert lines[0] == "x1,x2,x3,f" and len(lines) == 1 + 5 * 16
+    rows = [[float(text) for text in line.split(",")] for line in lines[1:]]
+    assert [row[-1] for row in rows] == found.values.tolist()
+    assert [ishigami(None, dict(zip(("x1", "x2", "x3"), row, strict=False))) for row in rows] == pytest.approx(
+        [row[-1] for row in rows], rel=1e-9)
 
 
 def test_an_interrupted_sweep_goes_on_and_ends_as_one_that_was_not(tmp_path):
