@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
-from told_formulas import Formula, Unread, difference
+from told_formulas import Formula, UnreadError, difference
 
 from workbench.report.errata.proof_steps import proof_steps
 
@@ -16,7 +16,7 @@ LEMMA = re.compile(r"\[(\d+)\] \$(.*?)\$, since (.*)")
 SUPPOSED = re.compile(r"\[(\d+)\] Suppose that \$(.*)\$\.")
 CASE = re.compile(r"(?:\[(\d+)\] )?Where \$(.*) (\\ge|\\le|<|>|=) 0\$:")
 EQUATION = re.compile(r"(?:Then )?\$([^$]*?) = ([^$]*)\$[.,](?: .*)?", re.DOTALL)
-LESS = re.compile(r"(?:T|t)he (?:right side less the left one|left side less the right one) is \$([^$]*)\$.*", re.DOTALL)
+LESS = re.compile(r"[Tt]he (?:right side less the left one|left side less the right one) is \$([^$]*)\$.*", re.DOTALL)
 
 
 class Reader:
@@ -88,6 +88,6 @@ def test_every_sum_of_a_proof_is_what_it_is_said_to_be(paper):
             continue
         try:
             count += Reader(path.stem).follow(proof_steps(certificate))
-        except (Unread, ValueError):  # sums over an index; logarithms and roots of what is negative at these numbers
+        except (UnreadError, ValueError):  # sums over an index; logarithms and roots of what is negative at these numbers
             continue
     assert count >= 10, count

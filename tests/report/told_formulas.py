@@ -5,11 +5,13 @@ import math
 import re
 
 TOKEN = re.compile(r"\\left[(|]|\\right[)|]|\\[A-Za-z]+|\d+(?:\.\d+)?|[A-Za-z]|[\[\]{}^_+\-,*=<>]|\s+|.")
-FUNCTIONS = {r"\ln": math.log, r"\tanh": math.tanh}
+FUNCTIONS = {r"\ln": math.log, r"\tanh": math.tanh, r"\sqrt": math.sqrt}
+BRACKETS = {r"\left(": r"\right)", r"\left|": r"\right|"}
+NO_LETTERS = (r"\sum", r"\text", r"\operatorname", r"\max", r"\min")
 ACCENTS = (r"\hat", r"\tilde", r"\bar", r"\dot", r"\ddot", r"\mathrm")
 
 
-class Unread(Exception):
+class UnreadError(Exception):
     """Sums over an index, derivatives and what else is not read here."""
 
 
@@ -23,7 +25,7 @@ class Formula:
     def value(self):
         found = self.sum()
         if self.at < len(self.tokens):
-            raise Unread(self.tokens[self.at])
+            raise UnreadError(self.tokens[self.at])
         return found
 
     def next(self):
@@ -32,7 +34,7 @@ class Formula:
     def take(self, token=None):
         found = self.next()
         if token is not None and found != token:
-            raise Unread(f"{found} for {token}")
+            raise UnreadError(f"{found} for {token}")
         self.at += 1
         return found
 
@@ -72,28 +74,24 @@ class Formula:
 
     def atom(self):
         token = self.take()
-        if token[0].isdigit():
-            return float(token)
-        if token in (r"\left(", r"\left|"):
+        if token in BRACKETS:
             found = self.sum()
-            self.take(r"\right)" if token == r"\left(" else r"\right|")
+            self.take(BRACKETS[token])
             return found if token == r"\left(" else abs(found)
         if token == r"\frac":
             return self.group() / self.group()
-        if token == r"\sqrt":
-            return math.sqrt(self.group())
         if token == "[":
             number = int(self.take())
             self.take("]")
             return self.lines[number]
         if token in FUNCTIONS:
-            return FUNCTIONS[token](self.atom())
-        if not (token[0] == "\\" or token.isalpha()) or token in (r"\sum", r"\text", r"\operatorname", r"\max", r"\min"):
-            raise Unread(token)
-        return self.letter(token)
+            return FUNCTIONS[token](self.group() if token == r"\sqrt" else self.atom())
+        return float(token) if token[0].isdigit() else self.letter(token)
 
     def letter(self, token):
         """A letter with its accents, its indices and its star, which a power stands behind in one bracket."""
+        if not (token[0] == "\\" or token.isalpha()) or token in NO_LETTERS:
+            raise UnreadError(token)
         name = token + (self.raw() if token in ACCENTS else "")
         if self.next() == "_":
             name += self.take() + self.raw()
@@ -110,7 +108,7 @@ class Formula:
         while depth:
             token = self.take()
             if not token:
-                raise Unread("the end")
+                raise UnreadError("the end")
             depth += (token == "{") - (token == "}")
             found += token
         return found
@@ -120,6 +118,6 @@ def difference(relation, letters, lines):
     """The smaller side of a relation taken from the greater one."""
     found = re.fullmatch(r"(.*?) (\\le|\\ge|\\ne|=|<|>) (.*)", relation, re.DOTALL)
     if found is None:
-        raise Unread(relation)
+        raise UnreadError(relation)
     a, b = (Formula(side, letters, lines).value() for side in (found[1], found[3]))
     return b - a if found[2] in (r"\le", "<") else a - b
