@@ -88,6 +88,6 @@ def test_every_sum_of_a_proof_is_what_it_is_said_to_be(paper):
             continue
         try:
             count += Reader(path.stem).follow(proof_steps(certificate))
-        except (UnreadError, ValueError):  # sums over an index; logarithms and roots of what is negative at these numbers
+        except (UnreadError, ValueError):  # sums over an index; a logarithm of what is negative at these numbers
             continue
     assert count >= 10, count
