@@ -22,6 +22,7 @@ from workbench.report.errata.content import errata
 from workbench.report.errata.latex import latex_document
 from workbench.report.errata.letters import letters_of
 from workbench.report.errata.markdown import markdown
+from workbench.report.errata.names import noted
 from workbench.report.errata.page import html_document
 from workbench.report.errata.proof_steps import proof_steps
 from workbench.report.errata.write import NO_PDF, write_errata
@@ -99,6 +100,7 @@ def test_how_a_line_was_read_and_what_letters_stand_for_is_said():
 
 
 def test_a_note_names_lines_as_the_paper_does():
+    assert noted("D(V_1) along (9), k times D(e).", {}) == "The rate of $V_{1}$ along (9), k times the rate of e."
     note = "See 6, theorem1.mended (7.glyph) and A4; 7.5 % of 4.2 remain."
     decisions = [replace(d, claim=replace(d.claim, note=note)) if d.claim.equation == "4" else d for d in paper()]
     assert ("**Note.** See 6, Theorem 1 “the line theorem1.mended” (equation (7) “the line 7.glyph”) and A4; 7.5 % of "

@@ -36,7 +36,7 @@ def expression_latex(text: str, style: Style = "exact") -> str:
 
 
 def factor_latex(text: str, alone: bool = False) -> str:
-    """An expression as a factor of a product, a sum in brackets; alone: so that it can be raised to a power."""
+    """An expression as a factor, a sum in brackets; alone: so that it can be raised to a power."""
     return _held(_tidied(parse(text)), ATOM if alone else PRODUCT)
 
 
@@ -230,7 +230,8 @@ def _written(node: ast.expr) -> Written:
         case ast.BinOp():
             return _operation(node)
         case ast.Constant(value):
-            return value_latex(Fraction(str(value))), ATOM
+            told = value_latex(Fraction(str(value)))
+            return str(value) if r"\approx" in told else told, ATOM
         case ast.Name(name):
             if name.startswith("="):  # a decimal put in
                 name, written = "", name[1:]

@@ -122,14 +122,14 @@ rate_25 = (k_4 * M / chi * (sdot_d - (v_hat - k_1 * s_error)) + M / chi * sddot_
              premises=("24.glyph",), rests_on=("12", "24"), scope=EVERY_NETWORK, where=TRACKED,
              note="With (12) as extracted. " + DAMPING + " With k_3 s_tilde' it holds, see 25.glyph.")
 def e_v_rate_plant() -> Goal:
-    """M/chi D(e_v) along (12) as printed, f of (12) written out."""
+    """M/chi times D(e_v) along (12) as printed, f of (12) written out."""
     return Goal((equal(M / chi * D(e_v_stated), rate_25),), flow=along_printed)
 
 
 @paper.claim("25.glyph", "The same from (12) with k_3 s_tilde'", "identity", PRINTED_25, "proved", origin="ours",
              glyph="25", premises=("12.glyph", "24.glyph"), scope=EVERY_NETWORK, where=TRACKED)
 def e_v_rate_plant_by_rate() -> Goal:
-    """M/chi D(e_v) along (12) as (18) and (25) have it."""
+    """M/chi times D(e_v) along (12) as (18) and (25) have it."""
     return Goal((equal(M / chi * D(e_v_stated), rate_25),), flow=along_tracking)
 
 
@@ -151,7 +151,7 @@ def _with_networks(expr: sp.Expr) -> sp.Expr:
                               r"\gamma(\dot{\tilde s} + k_1\tilde s)": gamma_1(signal)},
              reading="The first two lines of (26), from (25) with k_3 s_tilde' in (12); the third line names f_v, see 27.")
 def e_v_rate_networks() -> Goal:
-    """M/chi D(e_v) along (12) with (20), f_hat - f by (15), (17)."""
+    """M/chi times D(e_v) along (12) with (20), f_hat - f by (15), (17)."""
     along = along_tracking | {v_hat: v_hat_rate.xreplace({D_1: robust_1})}
     stated = (k_4 * M / chi * (sdot_d - v_hat + k_1 * s_error) - M / chi * d - u
               - M / chi * (-sddot_d + f_error - chi / M * f_d - k_2 * s_error - k_3 * s_error_rate

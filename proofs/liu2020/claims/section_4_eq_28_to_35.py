@@ -142,7 +142,7 @@ ESTIMATED = {r"\tilde W_v": W_v_hat - W_v_star}
 
 
 def _closed_e_v(sign: int, h_limited: bool = False) -> Goal:
-    """M/chi D(e_v) along (26), (28), (31), the sign of the weights' term free."""
+    """M/chi times D(e_v) along (26), (28), (31), the sign of the weights' term free."""
     stated = -k_5 * e_v + sign * over_neurons((W_v_hat - W_v_star) * h_v) + eps_v - M / chi * d - D_2
     return Goal((equal(M / chi * D(e_v), stated),), small_hidden(h_v) if h_limited else (),
                 flow={e_v: chi / M * (f_v_by_network - M / chi * d - command)})

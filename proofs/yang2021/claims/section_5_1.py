@@ -28,7 +28,7 @@ paper.definition("23", "The speed error of the design", r"e_2 = x_2 - r",
 
 @paper.claim("23.derivative", "The text before (22): e_2 is the derivative of the position error", "identity",
              r"\text{The position tracking error and its derivative signal are defined as follows}", "refuted",
-             severity="cosmetic", match="words", reading="The derivative signal of e_1 of (22) is e_2 of (23): e_2 = D(e_1).",
+             severity="cosmetic", match="words", reading="The derivative signal of e_1 of (22) is e_2 of (23): e_2 is the rate of e_1.",
              note="By (23) and (27) e_2 is e_1' + alpha e_1; Lemma 1 calls it the speed error, which it is no more. The proof "
                   "uses (23) alone.")
 def second_error_is_derivative() -> Goal:

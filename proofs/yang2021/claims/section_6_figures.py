@@ -18,8 +18,8 @@ u_max, u_common = sp.symbols("u_max u_common", positive=True)
 
 
 @paper.claim("figure8.input", "The largest input of Figure 8 and the one that it is kept at", "condition",
-             r"\text{When the train started, [...] the maximum acceleration value was 0.48 m/s$^2$. [...] it was basically kept "
-             r"at about 0.6 m/s$^2$}", "violated",
+             r"\text{When the train started, [...] the maximum acceleration value was 0.48 m/s². [...] it was basically kept "
+             r"at about 0.6 m/s²}", "violated",
              match="words", severity="cosmetic", at={u_max: Fraction(48, 100), u_common: Fraction(6, 10)},
              reading="No input of Figure 8 is above its maximum, so what it is kept at is at most 0.48.",
              note="The maximum may be meant as that of the start alone, and then the two numbers fit each other. As the "
@@ -31,7 +31,7 @@ def input_below_its_maximum() -> Goal:
 
 @paper.claim("figure8.acceleration", "The control input is the acceleration", "identity",
              r"\text{the train control input curve of the RBFNN-POCRAC algorithm, i.e., the acceleration curve of train operation}",
-             "refuted", severity="cosmetic", match="words", reading="u of (4) is D(x_2).",
+             "refuted", severity="cosmetic", match="words", reading="u of (4) is the rate of x_2.",
              note="By (4) they differ by the resistances. At a cruise that needs 0.6 m/s^2 the train does not accelerate at all.")
 def input_is_acceleration() -> Goal:
     """u against the rate of the speed by (4), on a train with the stated coefficients."""

@@ -9,9 +9,13 @@ from workbench.proof.places import place_of
 from workbench.proof.verdict import Decision
 from workbench.report.worded import worded
 
+_RATE = re.compile(r"\bD\((\w+)\)")
+
 
 def noted(note: str, titles: Mapping[str, str]) -> str:
-    """A note with the lines that it names as a reader of the paper calls them: 51.whole is a name of ours alone."""
+    """A note with the lines that it names as a reader of the paper calls them, and rates in words: 51.whole and D(V)
+    are names of ours alone."""
+    note = _RATE.sub(lambda found: f"{'The' if found.start() == 0 else 'the'} rate of {found[1]}", note)
     names = [name for name in titles if not name.isdigit() and ("." in name or name[-1].isdigit())]
     if not names:
         return worded(note)
