@@ -1,5 +1,6 @@
 """Many exports are one file for coqc in which none sees another, and a part that fails is found."""
 
+import subprocess
 from pathlib import Path
 from typing import Any
 
@@ -88,3 +89,19 @@ def test_a_run_that_tells_less_than_it_was_asked_accepts_nothing(
     monkeypatch.setattr(coqc, "_coqc", lambda folder, name, seconds: ("", ""))
     assert set(coqc._troubles(tmp_path, (exported(1), exported(2)), "B'", 5).values()) == {
         "says not what it rests on"}
+
+
+def test_a_limit_of_the_processors_time_that_stands_already_is_kept(
+        monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """No shell can raise one, and coqc would not be run at all."""
+    asked: list[list[str]] = []
+
+    def run(command: list[str], **_: Any) -> subprocess.CompletedProcess[str]:
+        asked.append(command)
+        return subprocess.CompletedProcess(command, 0, "", "")
+
+    monkeypatch.setattr(coqc.subprocess, "run", run)
+    for most, told in ((7, "7"), (500, "120"), (coqc.resource.RLIM_INFINITY, "120")):
+        monkeypatch.setattr(coqc.resource, "getrlimit", lambda _, most=most: (most, most))
+        coqc._coqc(tmp_path, "a.v", 120)
+        assert asked[-1][3] == told

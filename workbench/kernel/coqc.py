@@ -201,7 +201,9 @@ def axioms_in(said: str) -> list[str]:
 
 def _coqc(folder: Path, name: str, seconds: float) -> tuple[str, str]:
     """What coqc says of a file in `seconds` of processor time, and its trouble, empty where it accepts."""
-    # Of the processor's time, since the clock's depends on what else the machine does.
+    # Of the processor's time, since the clock's depends on what else the machine does. No limit can be raised.
+    most = resource.getrlimit(resource.RLIMIT_CPU)[1]
+    seconds = seconds if most == resource.RLIM_INFINITY else min(seconds, most)
     command = ["sh", "-c", 'ulimit -t "$0" && exec coqc -q -R . "" "$1"', str(math.ceil(seconds)), name]
     run = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     if run.returncode == 0:
