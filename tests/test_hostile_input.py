@@ -262,6 +262,11 @@ def test_a_line_that_is_not_there_is_told_with_the_key_that_names_it(tmp_path):
     study.write_text(changed(text, '"nowhere.toml"', '"words.toml"'))
     said = one_line(run("compare", study))
     assert "words.toml: is not valid TOML" in said and f"(check the path, 'track' in {study})" in said
+    for hostile, words in (("/dev/zero", "is a pipe, a device or a socket"), ("raw.toml", "is not UTF-8 text")):
+        (folder / "raw.toml").write_bytes(b"\xff\xfe\x00")
+        study.write_text(changed(text, '"nowhere.toml"', f'"{hostile}"'))
+        said = one_line(run("compare", study))
+        assert words in said and f"(check the path, 'track' in {study})" in said
     curve = '[reference]\nkind = "table"\nfile = "nowhere.csv"\n'
     study.write_text(re.sub(r"(?ms)^\[reference\].*?(?=^\[)", curve, changed(text, '"nowhere.toml"', '"line.toml"')))
     said = one_line(run("compare", study))

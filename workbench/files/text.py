@@ -63,6 +63,11 @@ def written_since_read(path: str | Path) -> bool:
     return bool(read_ns) and max(found.st_mtime_ns, found.st_ctime_ns) > read_ns
 
 
+def named_by(where: str) -> str:
+    """For the end of a message: what names a file, where that is known."""
+    return "" if where == CHECK_PATH else f" ({where})"
+
+
 def read_text(path: Path, kind: str, where: str = CHECK_PATH) -> str:
     """A file's text, UTF-8 with or without a mark, its lines ended by a line feed.
 
@@ -73,7 +78,7 @@ def read_text(path: Path, kind: str, where: str = CHECK_PATH) -> str:
     try:
         text = _remembered(path, _contents(path, kind, where)).decode("utf-8-sig")
     except UnicodeDecodeError:
-        raise InputError(path, "", f"is not UTF-8 text: save it as UTF-8 {kind}") from None
+        raise InputError(path, "", f"is not UTF-8 text: save it as UTF-8 {kind}{named_by(where)}") from None
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
@@ -107,18 +112,18 @@ def _remembered(path: str | Path, data: bytes) -> bytes:
 
 def _contents(path: Path, kind: str, where: str) -> bytes:
     limit = _LIMITS.get(kind, LARGEST_DATA)
+    named = named_by(where)
     try:
         return contents(path, limit)
     except FileNotFoundError:
         raise InputError(path, "", f"no such file: {where}{_meant(path)}") from None
     except IsADirectoryError:
-        raise InputError(path, "", f"is a folder: name a .{kind.lower()} file in it"
-                         f"{'' if where == CHECK_PATH else f' ({where})'}") from None
+        raise InputError(path, "", f"is a folder: name a .{kind.lower()} file in it{named}") from None
     except NotRegularError:
-        raise InputError(path, "", f"is a pipe, a device or a socket: name a regular {kind} file") from None
+        raise InputError(path, "", f"is a pipe, a device or a socket: name a regular {kind} file{named}") from None
     except TooLargeError:
         raise InputError(path, "", f"is larger than {size_words(limit)}, the most that is read of {kind}: name "
-                         "another file, or make it smaller") from None
+                         f"another file, or make it smaller{named}") from None
     except OSError as trouble:
         remedy = where if trouble.errno in NO_NAME else "check its permissions"
         raise InputError(path, "", f"cannot be read ({trouble.strerror}): {remedy}") from None

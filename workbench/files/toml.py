@@ -25,7 +25,7 @@ from pydantic import (
 
 from workbench.errors import InputError
 from workbench.files.known_keys import meant
-from workbench.files.text import CHECK_PATH, read_text
+from workbench.files.text import CHECK_PATH, named_by, read_text
 
 # A number between bounds is declared `mass_kg: Number = Field(ge=1e3, le=1e8)`, a whole one `Whole` likewise.
 Number = Annotated[float, Strict(), Field(allow_inf_nan=False)]
@@ -143,17 +143,16 @@ def read_toml(path: Path, where: str = CHECK_PATH) -> dict[str, Any]:
 
 def _table(path: Path, where: str) -> dict[str, Any]:
     text = read_text(path, "TOML", where)
-    named = "" if where == CHECK_PATH else f" ({where})"
     if not text.strip():
-        raise InputError(path, "", f"is empty: a TOML table is expected{named}")
+        raise InputError(path, "", f"is empty: a TOML table is expected{named_by(where)}")
     _require_quick(path, text)
     try:
         table = tomllib.loads(text)
         integers = list(_integers(table, ""))
     except ValueError as trouble:  # TOMLDecodeError, and Python's own limit on the digits of an integer
-        raise InputError(path, "", f"is not valid TOML: {trouble}{named}") from None
+        raise InputError(path, "", f"is not valid TOML: {trouble}{named_by(where)}") from None
     except RecursionError:
-        raise InputError(path, "", f"is nested too deeply: write flatter tables{named}") from None
+        raise InputError(path, "", f"is nested too deeply: write flatter tables{named_by(where)}") from None
     for key, number in integers:
         if abs(number) > LARGEST_INTEGER:
             raise InputError(path, key, "is a whole number beyond 64 bits: give a finite number that fits, or a float")
