@@ -3,6 +3,7 @@
 import pytest
 import sympy as sp
 
+from workbench.errors import ClaimError
 from workbench.proof.claim import D, Goal, at_least, at_most, greater
 from workbench.proof.decide.engine import decide_all
 from workbench.proof.paper import Paper
@@ -71,3 +72,17 @@ def test_nothing_is_said_where_a_premise_assumes_no_more(name):
     last = judged(*AS_WIDE[name])[-1]
     assert last.besides == ()
     assert last.fate.why == "proved, and no line that the paper uses to get there fails"
+
+
+def test_a_claim_names_what_it_takes():
+    """Else a headline would stand on a line that fails, and nobody would hear of it."""
+    paper = Paper("p2030", "none")
+    paper.claim("1", "A line", "inequality", "x", "refuted")(lambda: Goal((at_least(x**2, 1),)))
+    paper.claim("2", "Another", "inequality", "x", "proved", severity="result")(
+        lambda: Goal((at_least(x**2, HALF),), paper.shown("1")))
+    with pytest.raises(ClaimError, match="claim p2030:2: takes what claim p2030:1 shows, which is none of its prem"):
+        decide_all(paper.claims)
+
+
+def test_what_a_premise_takes_of_its_own_needs_no_name():
+    assert judged(beyond_one, everywhere, lambda shown: Goal((at_least(2 * x**2, 1),), shown))[-1].verdict == "proved"

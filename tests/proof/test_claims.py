@@ -41,7 +41,7 @@ POINTS, EXACT_POINTS, MOST_DOUBTFUL = 4_000, 10, 10
 KEYS = {"id", "paper", "equation", "kind", "statement", "verdict", "method", "scope", "certificate", "counterexample",
         "correction", "premises", "tainted_by", "trust", "seconds", "title", "note", "recorded", "computed", "origin",
         "match", "reading", "glyph", "glyph_claim", "severity", "rests_on", "mends", "fate", "fate_why", "fate_by",
-        "goal", "section", "goal_digest", "proved_under"}
+        "goal", "section", "goal_digest", "proved_under", "besides"}
 
 
 @pytest.fixture(scope="module")

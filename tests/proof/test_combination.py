@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from workbench.proof.checker import CertificateError, check
-from workbench.proof.claim import Goal, at_least, at_most, greater, less
+from workbench.proof.claim import Goal, at_least, at_most, equal, greater, less
 from workbench.proof.decide.engine import prove_goal
 
 x, y, z = sp.symbols("x y z", real=True)
@@ -40,6 +40,13 @@ BEYOND = {
     "a bound of a square": (Goal((less(x**2, 10**290),), (at_most(x, 10**150),)), None),
     "a sum of what is large": (Goal((at_least(x + 10**200 * y, 0),), (at_least(x, 0), at_least(y, 0))), True),
 }
+
+
+def test_a_case_in_which_a_term_has_no_value_ends_no_search():
+    """Where the sign is 0 its logarithm is none."""
+    sign, angle = sp.sign(y), sp.atan(x)
+    goal = Goal((equal(sp.log(angle * sign), sp.log(angle) + sp.log(sign)),), (at_most(y**2, x), at_least(y, x)))
+    assert prove_goal(goal) is None
 
 
 @pytest.mark.parametrize("name", BEYOND)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
+from contextvars import ContextVar
 
 from workbench.errors import FROM_OUTSIDE, ClaimError, InputError
 from workbench.files.mistakes import mistake
@@ -11,10 +12,19 @@ from workbench.proof.claim import Claim, Goal
 from workbench.proof.text import relation_text, text
 
 REFLEXIVE = ("==", "<=", ">=")  # hold between a term and itself
+_taken: ContextVar[list[str] | None] = ContextVar("taken", default=None)  # claims of whose relations a goal is made
+
+
+def take(claim_id: str) -> None:
+    """Keep that the goal which is being built takes what this claim shows."""
+    if (taken := _taken.get()) is not None:
+        taken.append(claim_id)
 
 
 def built(claim: Claim, build: Callable[[], Goal], what: str = "goal") -> Goal:
     """The goal that a function of the claim makes; raises ClaimError, naming the claim, when it makes none."""
+    taken: list[str] = []
+    before = _taken.set(taken)
     try:
         goal: object = build()
     except (ClaimError, InputError) as trouble:
@@ -24,6 +34,11 @@ def built(claim: Claim, build: Callable[[], Goal], what: str = "goal") -> Goal:
     except BaseException as trouble:  # what ends a process too
         where = getattr(getattr(inspect.unwrap(build), "__code__", None), "co_filename", "")
         raise ClaimError(f"claim {claim.id}: its {what} cannot be made: {mistake(trouble, where)}") from trouble
+    finally:
+        _taken.reset(before)
+    if what == "goal" and (unnamed := [one for one in taken if one not in claim.premises]):
+        raise ClaimError(f"claim {claim.id}: takes what claim {unnamed[0]} shows, which is none of its premises, so "
+                         "that nobody would hear where that one fails: add it to premises")
     if inspect.iscoroutine(goal):
         goal.close()  # of an async function, of which Python would say that nobody awaits it
     if not isinstance(goal, Goal):

@@ -10,7 +10,7 @@ from pathlib import Path
 import sympy as sp
 
 from workbench.errors import ClaimError, InputError
-from workbench.proof.building import built
+from workbench.proof.building import built, take
 from workbench.proof.claim import Claim, Goal, Kind, Relation, Verdict
 from workbench.proof.lemmas.lemma import Lemma
 from workbench.proof.loading import ProofFile
@@ -75,12 +75,14 @@ class Paper:
     def shown(self, equation: str) -> tuple[Relation, ...]:
         """What an earlier claim's goal shows, for the assumptions of a claim that has it among its premises.
 
-        Raises ClaimError where there is none.
+        Raises ClaimError where there is none; a claim that takes it and does not name it is refused when it is built.
         """
         found = next((claim for claim in self.claims if claim.id == self._id(equation)), None)
         if found is None or found.build is None:
             raise ClaimError(f"claim {self._id(equation)}: has no goal that another one could use: state it first")
-        return built(found, found.build).show
+        shown = built(found, found.build).show
+        take(found.id)
+        return shown
 
     def axiom(self, equation: str, title: str, printed: str, source: str, *, hypotheses: tuple[str, ...],
               origin: Origin = "printed", severity: Severity = "step", match: Match = "read", reading: str = "",

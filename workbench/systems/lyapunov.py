@@ -17,10 +17,10 @@ def closed_loop(plant: Plant, law: StateLaw) -> dict[sp.Expr, sp.Expr]:
     """Every moving symbol's rate where the law's command acts at once: states, the law's states, references, time.
 
     It is what `Goal(flow=...)` takes. Inputs are replaced by the commands, measured outputs by what they measure; input
-    limits are left out. Time has a rate where a rate depends on it; of a function of time in any other loop a goal is
-    given `flow={**flow, time: 1}`. The third rate of a reference and disturbances are inputs of the goal, constants
-    unless it names them so. Raises ValueError where the law does not fit the plant, or one of the two moves in steps,
-    which is no flow.
+    limits are left out, and so are events: it is the flow between two of them. Time has a rate where a rate depends on
+    it; of a function of time in any other loop a goal is given `flow={**flow, time: 1}`. The third rate of a reference
+    and disturbances are inputs of the goal, constants unless it names them so. Raises ValueError where the law does not
+    fit the plant, or one of the two moves in steps, which is no flow.
     """
     _require_pair(plant, law)
     law.check(plant)

@@ -150,7 +150,7 @@ THEOREM = r"\exists \lambda_{\min} > 0:\ \lambda > \lambda_{\min} \Rightarrow \l
 
 
 @paper.claim("theorem1", "Theorem 1: under Assumptions 1 to 4 the expected error converges to zero", "limit", THEOREM, "refuted",
-             premises=("theorem1.step", "13"), rests_on=("A1", "A2", "A3", "A4", "6", "6.unchanged", "13.keeps", "14", "15", "gamma.positive", "gamma.mean"),
+             premises=("theorem1.step", "13", "14"), rests_on=("A1", "A2", "A3", "A4", "6", "6.unchanged", "13.keeps", "14", "15", "gamma.positive", "gamma.mean"),
              severity="result", closed_loop=True,
              reading="A motion of (6), (13)-(15) that is the same in every trial has no error; k <= T_min, so that no trial ends before (gamma = 1).",
              note="The paper asks nothing of the first estimate. With phi_hat(k,1) = 0 the reset (13) puts 0 back in every trial, and the error stays as it is. With one of the wrong sign "

@@ -100,6 +100,8 @@ def _expand(expr: sp.Expr, atoms: Atoms) -> Laurent:
     result: Laurent = {}
     for term in sp.Add.make_args(sp.expand(expr)):
         coefficient, powers = term.as_coeff_Mul()
+        if not coefficient.is_Rational:  # nan, of a case in which the term has no value
+            raise ClaimError(f"{term} is no number: it cannot be decided here")
         exponents: dict[int, int] = {}
         for base, power in powers.as_powers_dict().items():
             if base == 1:
