@@ -1,7 +1,8 @@
 """What a sign or an index makes of numbers and arrays, found once: numba goes through all that it knows of arrays at
 every `a * b` and `a[i]`, and compares all its options with each other each time.
 
-A kernel takes about a fifth less to compile by it. The code is the same.
+A law takes about a seventh less to compile by it, MPC's solver, which is full of indices, a quarter. The code is the
+same.
 """
 
 from __future__ import annotations
