@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from workbench.files.numbers import NOTHING, number
+from workbench.files.numbers import NOTHING, number, typeset
 from workbench.paper.cells import FORCES, Column, Phrase, Quantity, Scaled, cell_text, cell_value, is_finite, numbers_in
 
 ENERGY, PLAIN = Column("energy", "kWh", 3.6e6), Column("trials")
@@ -57,3 +57,12 @@ def test_what_is_not_finite_is_found_wherever_it_stands(bad):
         assert not is_finite(word)
     for cell in (None, "left its domain", 0.0, Quantity(None), Phrase("{}", (None, )), Phrase("{}", (2.0,))):
         assert is_finite(cell)
+
+
+@pytest.mark.parametrize(("message", "shown"), [
+    ("diverged at t = 105.789 s, s = 16867.337 m, v = -1.511e+06 m/s",
+     "diverged at t = 105.789 s, s = 16\u202f867.337 m, v = −1.511\u202f×\u202f10⁶ m/s"),
+    ("x_1 = -0.5, u = 2e-07 N", "x_1 = −0.5, u = 2\u202f×\u202f10⁻⁷ N"),
+    ("law = 3rd, at 12345, file = 1.2.3", "law = 3rd, at 12345, file = 1.2.3")])
+def test_a_message_has_its_numbers_as_a_page_writes_them(message, shown):
+    assert typeset(message) == shown

@@ -178,7 +178,7 @@ def test_leaving_the_barrier_is_reported_with_time_state_and_law_and_not_clipped
     spec = scenario.controllers["pocrac"].model_copy(update={"estimates": "explicit"})
     scenario = scenario.model_copy(update={"controllers": {"pocrac": spec}, "printed_table": None})
     run = simulate(scenario, "pocrac")
-    stated = re.fullmatch(r"yang2021\.pocrac left its domain \(k\*\*2 - \(x_1 - x_d\)\*\*2 > 0\) "
+    stated = re.fullmatch(r"yang2021\.pocrac left its domain \(k\^2 - \(x_1 - x_d\)\^2 > 0\) "
                           r"at t = ([\d.]+) s, s = ([\d.]+) m, v = ([\d.]+) m/s", run.failed)
     assert stated
     t, p, _ = map(float, stated.groups())

@@ -110,6 +110,12 @@ def test_a_file_that_cannot_be_used_is_named(which, spoil, words, folder):
     assert refusal(load_scenario, folder / YANG.name).startswith(f"{folder / which}: {words}")
 
 
+def test_a_file_of_another_kind_is_told_from_a_mistake_in_one(tmp_path):
+    for name, ending in (("laws.py", ": a file whose name ends with .toml is expected"), ("study.toml", ")")):
+        (tmp_path / name).write_text("import sympy\n")
+        assert refusal(load_scenario, tmp_path / name).endswith(ending)
+
+
 def test_a_file_without_permission_is_named(monkeypatch):
     def refuse(*_, **__):
         raise PermissionError(13, "Permission denied")

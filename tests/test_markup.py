@@ -40,3 +40,12 @@ def test_a_certificate_in_a_hostile_folder_is_named_in_a_line(name, tmp_path):
     ended = run("check-certificates", folder)
     assert ended.returncode == 1
     assert f"{folder / 'a.json'}: {name}: INVALID: " in ended.stderr
+
+
+def test_a_column_of_results_has_as_many_digits_in_every_row(monkeypatch):
+    monkeypatch.setattr(out_console, "_width", 200)
+    values = {"stopping_error": -0.0038, "position_error_min": -0.239, "energy_J": 6.477e9, "step_us_median": 0.0}
+    with out_console.capture() as shown:
+        out_console.print(metrics_table([{**ROW, **values, "controller": "c", "failed": None}], "t"))
+    assert shown.get().splitlines()[-3].split() == [
+        "c", "1", "[-239,", "1.00]", "[1.00,", "1.00]", "-3.80", "6477", "0"]

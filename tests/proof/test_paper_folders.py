@@ -143,3 +143,14 @@ def test_a_mistake_is_one_line_that_names_the_file(paper, file, words):
         proved(paper)
     assert str(trouble.value).startswith(str(paper)) and words in str(trouble.value)
     assert file.rpartition("/")[2] in str(trouble.value)
+
+
+def test_a_module_that_a_folder_lacks_is_called_by_its_own_name(paper):
+    (paper / "laws.py").unlink()
+    (paper / "claims" / "section_2.py").write_text("from .. import laws\n")
+    with pytest.raises(InputError) as imported:
+        proved(paper)
+    (paper / "claims" / "section_2.py").write_text("from ..laws import anything\n")
+    with pytest.raises(InputError, match=r"No module named 'laws': install it, or put it beside") as missing:
+        proved(paper)
+    assert "workbench_folder" not in str(imported.value) + str(missing.value)

@@ -181,6 +181,9 @@ def test_in_print_the_drawn_figures_stand(view):
     view.locator("#line .plot svg").wait_for()
     view.locator("#line .chart").wait_for(state="hidden")
     rules = view.evaluate("[...document.styleSheets[0].cssRules].map(rule => rule.cssText)")
+    graphs = view.eval_on_selector_all(".premises", """found => found.map(e =>
+        [e.getBoundingClientRect().right, e.closest(".scroll").getBoundingClientRect().right, e.style.minWidth])""")
+    assert graphs and all(graph <= box and least for graph, box, least in graphs)  # on paper nothing can be scrolled to
     assert any(rule.startswith("@page {") and "margin: 1cm" in rule for rule in rules)  # not up to the paper's edge
     view.emulate_media(media="screen")
 

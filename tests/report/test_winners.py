@@ -34,5 +34,5 @@ def test_the_smallest_error_wins_and_equals_win_together(scenario):
     assert (changed.winner, changed.others) == (f"{names[first]}, in 2 of 3", f"{names[second]} in 1")
     even = winners(scenario, driven(scenario, 1.0, 2.0), changes[:3], [], names)
     assert even.rows[1].winner == f"{names[second]} and {names[first]}, in 1 of 2"
-    assert even.rows[1].others == "nobody else in any"
+    assert even.rows[1].others == "none"
     assert winners(scenario, driven(scenario, 1.0, None), [], [], names) is None

@@ -207,10 +207,10 @@ def metrics_table(rows: Sequence[dict[str, Any]], title: str) -> Table:
              "step\n(µs)")
     for r in rows:
         table.add_row(
-            Text(r["controller"]).append(" failed" if r["failed"] else "", "red"), _number(r["period_s"], 1e3),
+            Text(r["controller"]).append(" failed" if r["failed"] else "", "red"), f"{r['period_s'] * 1e3:.3g}",
             _range(r["position_error_min"], r["position_error_max"]),
             _range(r["speed_error_min"], r["speed_error_max"]), _number(r["stopping_error"], 1e3),
-            _number(r["energy_J"], 1e-6, 5), _number(r["step_us_median"]))
+            "–" if r["energy_J"] is None else f"{r['energy_J'] * 1e-6:.5g}", _number(r["step_us_median"]))
     return table
 
 
@@ -240,8 +240,9 @@ def _columns(table: Table, *headings: str) -> None:
         table.add_column(heading, justify="right", overflow="fold")
 
 
-def _number(value: float | None, scale: float = 1.0, digits: int = 3) -> str:
-    return "–" if value is None else f"{value * scale:.{digits}g}"
+def _number(value: float | None, scale: float = 1.0) -> str:
+    """A number with three digits, zeros at its end among them: a column's numbers are known equally well."""
+    return "–" if value is None else "0" if value == 0 else f"{value * scale:#.3g}".rstrip(".")
 
 
 def _range(low: float | None, high: float | None, scale: float = 1e3) -> str:

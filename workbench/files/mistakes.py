@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import traceback
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from workbench.errors import of_an_extra
 
 # How the modules of a paper's folder are called.
 OF_A_FOLDER = "workbench_folder_"
+_WITHIN = re.compile(rf"\b{OF_A_FOLDER}(\w+)_[0-9a-f]{{10}}(\.?)")
 
 REMEDIES: tuple[tuple[str, str], ...] = (
     ("SyntaxError", "correct that line"),
@@ -30,6 +32,7 @@ def mistake(trouble: BaseException, file: str | Path) -> str:
         return f"{_place(trouble, Path(file))}{left_out}"
     remedy = next((text for name, text in REMEDIES if name in kinds), "correct the file")
     what = f"{trouble.msg}" if isinstance(trouble, SyntaxError) else f"{trouble}"
+    what = _WITHIN.sub(lambda name: "" if name[2] else name[1], what)  # as the files and the folder are called
     return " ".join(f"{_place(trouble, Path(file))}{kinds[0]}: {what}: {remedy}".split())
 
 

@@ -6,6 +6,7 @@ import math
 import re
 
 NOTHING = "—"
+_EQUAL_TO = re.compile(r"(?<== )(-?\d+(?:\.\d+)?)(?:e([+-]\d+))?(?![\w.])")
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 THIN_SPACE = "\u202f"
 
@@ -58,6 +59,11 @@ def length(value_m: float | None, digits: int = 3) -> str:
     if value_m is None or not math.isfinite(value_m):
         return NOTHING
     return f"{number(value_m, digits)} m" if abs(value_m) >= 1 else f"{number(value_m * 1e3, digits)} mm"
+
+
+def typeset(text: str) -> str:
+    """A message with the numbers behind its signs of equality as a page has them: `v = -1.5e+06` is v = −1.5 × 10⁶."""
+    return _EQUAL_TO.sub(lambda n: _scientific(n[1], int(n[2])) if n[2] else grouped(n[1]), text)
 
 
 def _scientific(mantissa: str, exponent: int) -> str:

@@ -150,7 +150,8 @@ def _table(path: Path, where: str) -> dict[str, Any]:
         table = tomllib.loads(text)
         integers = list(_integers(table, ""))
     except ValueError as trouble:  # TOMLDecodeError, and Python's own limit on the digits of an integer
-        raise InputError(path, "", f"is not valid TOML: {trouble}{named_by(where)}") from None
+        other = "" if path.suffix == ".toml" else ": a file whose name ends with .toml is expected"
+        raise InputError(path, "", f"is not valid TOML: {trouble}{other}{named_by(where)}") from None
     except RecursionError:
         raise InputError(path, "", f"is nested too deeply: write flatter tables{named_by(where)}") from None
     for key, number in integers:

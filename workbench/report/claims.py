@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import PurePath
 from typing import Any
 from urllib.parse import quote
@@ -16,6 +16,7 @@ from workbench.proof.places import STATEMENT, place_of, subject_of, whole_of
 from workbench.proof.verdict import FAILED
 from workbench.report.certificate_latex import assignments_latex
 from workbench.report.formulas import formula, in_html
+from workbench.report.note_links import anchors_beside, linked
 from workbench.report.number_style import alike, upright
 from workbench.report.worded import worded
 
@@ -87,7 +88,9 @@ def claim_views(document: Mapping[str, Any]) -> list[ClaimView]:
     """The claims of a `prove --json` document, in its order."""
     entries = [entry for entry in _list(document.get("claims")) if isinstance(entry, Mapping)]
     verdicts = {_text(entry.get("id")): _text(entry.get("verdict")) for entry in entries}
-    return [_view(entry, verdicts) for entry in entries]
+    anchors = {name: anchor(name) for name in verdicts}
+    return [replace(view, note=linked(view.note, anchors_beside(view.id, anchors)))
+            for view in (_view(entry, verdicts) for entry in entries)]
 
 
 def fated(claims: Sequence[ClaimView]) -> list[ClaimView]:

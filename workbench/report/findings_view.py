@@ -12,6 +12,7 @@ from workbench.files.folders import CERTIFICATES
 from workbench.report.claims import VERDICTS, anchor, certificate_beside, in_words
 from workbench.report.finding_sentences import IMPLIED, PRINTED
 from workbench.report.formulas import formula, in_html
+from workbench.report.note_links import anchors_beside, linked
 
 # Sentences whose formulas stand on lines of their own.
 TOLD_APART = (f"{PRINTED}:", f"{IMPLIED}:", "It should read", "Mended, it is proved:", "Beside it is proved:")
@@ -63,10 +64,11 @@ def _view(entry: Mapping[str, Any], claims: Mapping[str, Mapping[str, Any]]) -> 
     digest, name = entry.get("digest"), f"{entry.get('paper')}:{equation}"
     claim = claims.get(name, {})
     certificate = certificate_beside(claim) or f"{CERTIFICATES}/{entry.get('paper')}/{equation}.json"
+    anchors = anchors_beside(name, {other: anchor(other) for other in claims})
     return FindingView(
         str(entry.get("place", equation)), anchor(name), verdict,
         VERDICTS.get(verdict, "?"), in_html(sentences[0]), tuple(map(in_html, shown)),
-        in_words(str(claim.get("note") or "")),
+        linked(in_words(str(claim.get("note") or "")), anchors),
         IMPLIED if entry.get("origin") == "implied" else PRINTED,
         formula(str(entry.get("printed") or "")), formula(str(entry.get("should_read") or "")),
         f"python checker.py {certificate} --claim-digest {digest}" if digest else "")

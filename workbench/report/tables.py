@@ -194,7 +194,8 @@ def printed_values_table(scenario: Scenario, metrics: Sequence[Metrics],
         obtained = float(measured) if isinstance(measured, int | float) else None
         label = next((label for key, label, *_ in METRICS if key == value.metric),
                      value.metric.replace("_", " "))
-        rows.append(SingleValueRow(f"{names.get(value.controller, value.controller)}: {label}", value.source,
+        told = label[:1].lower() + label[1:] if label[1:2].islower() else label  # RMS stays
+        rows.append(SingleValueRow(f"{names.get(value.controller, value.controller)}: {told}", value.source,
                                *_compare(value.value, obtained), value.unit))
     return rows
 

@@ -16,7 +16,7 @@ from typing import Any
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
-from workbench.files.numbers import number
+from workbench.files.numbers import number, typeset
 from workbench.files.regular import contents
 from workbench.report.charts.chart import Chart, chart_json
 from workbench.report.charts.files import CURVES
@@ -58,8 +58,8 @@ def render(template: str, document: Mapping[str, Any], sources: Sequence[Sourced
     scripts = _scripts(folder, bool(values.get("figures") or values.get("first_figure")))
     environment = Environment(loader=FileSystemLoader(folder), autoescape=True, undefined=StrictUndefined,
                               trim_blocks=True, lstrip_blocks=True)
-    environment.filters |= {"number": number, "stated": stated, "breakable": _breakable, "in_words": in_words,
-                            "as_heading": _as_heading}
+    environment.filters |= {"number": number, "stated": stated, "typeset": typeset, "breakable": _breakable,
+                            "in_words": in_words, "as_heading": _as_heading}
     printed = [claim for claim in claims if not claim.ours] or claims
     return environment.get_template(template).render(
         claims=claims, counts=counts(printed), findings=finding_groups(document), sections=by_section(claims),

@@ -100,7 +100,7 @@ def _said(runs: Sequence[Mapping[str, float]], names: Mapping[str, str],
     most = max(wins.values())
     rest = [(name, n) for name, n in wins.most_common() if n < most]
     return (f"{listed([names[name] for name, n in wins.items() if n == most])}, in {most} of {len(runs)}",
-            ", ".join(f"{names[name]} in {n}" for name, n in rest) or "nobody else in any")
+            ", ".join(f"{names[name]} in {n}" for name, n in rest) or "none")
 
 
 def _energy(m: Metrics, least: float) -> str:

@@ -187,6 +187,10 @@ def _text(expression: Any) -> str:
     return str(expression)
 
 
+def _power(expression: Any) -> str:
+    return _text(expression).replace("**", "^")
+
+
 def _fixed(setting: Setting) -> tuple[float, float]:
     return setting.position_band_m, setting.nominal_mass_kg
 
@@ -266,7 +270,7 @@ def _why(status: int, at_s: float, state: Array, law: ControlLaw, law_id: str) -
     s, v = (f"{value:.3f}" if abs(value) < 1e6 else f"{value:.3e}" for value in state[:2])
     where = f"at t = {at_s:.3f} s, s = {s} m, v = {v} m/s"
     if status == LEFT_DOMAIN:
-        return f"{law_id} left its domain ({', '.join(f'{_text(d)} > 0' for d in law.domain)}) {where}"
+        return f"{law_id} left its domain ({', '.join(f'{_power(d)} > 0' for d in law.domain)}) {where}"
     if status == DIVERGED:
         return f"{law_id} diverged {where}"
     return None

@@ -191,10 +191,10 @@ class Setting:
         for name, reference in self.tracks.items():
             symbol, value = outputs[name]
             error, unit = value - channel[reference], plant.units.get(symbol, "")
-            found += [Metric(f"{name}_error_rms", "root mean square", error, unit, f"{name} error rms"),
+            found += [Metric(f"{name}_error_rms", "root mean square", error, unit, f"{name} error RMS"),
                       Metric(f"{name}_error_largest", "largest", sp.Abs(error), unit, f"{name} error largest"),
                       Metric(f"{name}_error_final", "terminal", error, unit, f"{name} error final")]
-        found += [Metric(f"{symbol}_rms", "root mean square", symbol, plant.units.get(symbol, ""), f"{symbol} rms")
+        found += [Metric(f"{symbol}_rms", "root mean square", symbol, plant.units.get(symbol, ""), f"{symbol} RMS")
                   for symbol in plant.inputs]
         for symbol, (low, high) in plant.state_limits.items():
             sides = [side for bound, side in ((low, low - symbol), (high, symbol - high)) if math.isfinite(bound)]

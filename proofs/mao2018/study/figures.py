@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from workbench.files.numbers import grouped
 from workbench.model.events import failure_rows
 from workbench.paper.cells import cell_text
 from workbench.paper.reproduced import STATED
@@ -68,9 +69,13 @@ def _errors(results: MaoResults) -> Iterator[Plot]:
         yield Plot(
             f"Position error in case {number}: {case.title}", f"paper, Figure 2 ({'abcd'[number - 2]})", TIME,
             "position error (mm)", tuple(curves),
-            f"From {START_OVER_S:g} s on, when the {case.initial_position_m:g} m of the start are over; runs that "
-            f"diverge later end where they pass {LOST_MM:g} mm. {_title(results)}"
+            f"From {START_OVER_S:g} s on{_after(case.initial_position_m)}; runs that diverge later "
+            f"end where they pass {LOST_MM:g} mm. {_title(results)}"
             + (f" Not shown: {'; '.join(missing)}." if missing else ""))
+
+
+def _after(start_m: float) -> str:
+    return f", when the error of {grouped(f'{start_m:g}')} m at the start is over" if start_m else ""
 
 
 def _sizes(results: MaoResults) -> Iterator[Plot]:

@@ -88,6 +88,16 @@ function cell(row, kind, text) {
   row.append(made);
 }
 
+// A number as the page's tables write it; the CSV file has all its digits.
+const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+function shown(value) {
+  if (typeof value !== "number" || !isFinite(value)) return value;
+  const rounded = Number(value.toPrecision(6)), tiny = rounded && Math.abs(rounded) < 1e-4;
+  const [digits, power] = (tiny ? rounded.toExponential() : String(rounded)).replaceAll("-", "−").split("e");
+  if (!power) return digits;
+  return digits + "\u202f×\u202f10" + power.replace("+", "").replace("−", "⁻").replace(/\d/g, digit => RAISED[digit]);
+}
+
 function table(figure, fold) {
   if (fold.querySelector("table")) return;
   const chart = charts.get(figure), several = chart.panels.length > 1, made = document.createElement("table");
@@ -96,19 +106,19 @@ function table(figure, fold) {
   const y = several ? "value" : chart.panels[0].y;
   for (const text of ["curve", ...(several ? ["quantity"] : []), chart.x, y || "value"]) cell(head, "th", text);
   const body = made.createTBody();
-  let points = 0, shown = 0;
+  let points = 0, listed = 0;
   for (const panel of chart.panels) for (const curve of panel.curves) {
     points += curve.points;
     const step = Math.max(1, Math.ceil(curve.x.length / ROWS));
     for (let at = 0; at < curve.x.length; at += step) {
       const row = body.insertRow();
-      for (const text of [curve.label || chart.title, ...(several ? [panel.y] : []), curve.x[at], curve.y[at]])
+      for (const text of [curve.label || chart.title, ...(several ? [panel.y] : []), shown(curve.x[at]), shown(curve.y[at])])
         cell(row, "td", text);
-      shown += 1;
+      listed += 1;
     }
   }
-  made.createCaption().textContent = shown === points ? points + " points" :
-    shown + " of " + points + " points, evenly drawn; the CSV file has more";
+  made.createCaption().textContent = listed === points ? points + " points" :
+    listed + " of " + points + " points, evenly drawn; the CSV file has more";
   const box = document.createElement("div");
   box.className = "scroll";
   box.tabIndex = 0;

@@ -26,7 +26,8 @@ def why(setting: Setting, name: str, law: StateLaw | None, status: int, t: float
         return f"{name} diverged at t = {t:.4g} s, {_last_logged(setting, t, a)}: {UNDEFINED}"
     where = ", ".join(f"{symbol} = {value:.4g}" if math.isfinite(value) else f"{symbol} beyond all numbers"
                       for symbol, value in zip(plant.states, a.x, strict=False))
-    domain = ", ".join(f"{e} > 0" for e in (plant.domain if status == OUTSIDE else law.domain if law else ()))
+    outside = plant.domain if status == OUTSIDE else law.domain if law else ()
+    domain = ", ".join(f"{e} > 0" for e in outside).replace("**", "^")
     last = plant.events[int(a.event_log[a.event_count[0] - 1, 1])].id if a.event_count[0] else ""
     what = {PILED_UP: f"met event '{last}' more than {MOST_IN_A_STEP} times in a plant step, or too fast to tell apart "
             "(state a mode in which the plant rests), which was",
