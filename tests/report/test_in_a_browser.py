@@ -185,7 +185,9 @@ def test_in_print_the_drawn_figures_stand(view):
         [e.getBoundingClientRect().right, e.closest(".scroll").getBoundingClientRect().right, e.style.minWidth])""")
     assert graphs and all(graph <= box and least for graph, box, least in graphs)  # on paper nothing can be scrolled to
     assert any(rule.startswith("@page {") and "margin: 1cm" in rule for rule in rules)  # not up to the paper's edge
-    view.emulate_media(media="screen")
+    view.emulate_media(media="print", color_scheme="dark")
+    assert view.evaluate("getComputedStyle(document.querySelector('h1')).color") == "rgb(27, 29, 33)"  # paper is white
+    view.emulate_media(media="screen", color_scheme="light")
 
 
 @pytest.mark.parametrize("width", WIDTHS)

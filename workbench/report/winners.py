@@ -67,7 +67,7 @@ def winners(scenario: Scenario, metrics: Sequence[Metrics], variants: Sequence[t
                if {m.controller for m in of_it} >= everyone and (found := _errors(of_it))]
     if changed:
         count = f"{len(changed)} changes" if len(changed) > 1 else "1 change"
-        rows.append(Winner(f"{count} of an assumed value, driven by all{'' if every else ', of those in this report'}",
+        rows.append(Winner(f"{count} of an assumed value{'' if every else ' in this report'}, driven by all",
                            *_said(changed, names)))
     won = {name for found in [nominal, *drawn.values(), *changed] for name in _best(found)}
     least = min((m.energy_J for m in metrics if m.failed is None), default=0.0)
