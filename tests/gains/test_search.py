@@ -161,6 +161,7 @@ MISTAKES = [
     ({"a": at_least(sp.exp(x), p)}, (), "no polynomial"),
     ({"a": equal(p * x, 0)}, (), "at_most or at_least"),
     ({}, (), "there are none"),
+    ({"a": at_least(p * x**2, 1), "b": at_most(x - x, 0)}, (), "b: says 0 >= 0 whatever the unknowns"),
     ({"a": at_least(x**2, p)}, (at_most(p * x, 1),), "mentions an unknown"),
     ({"a": at_least(p + sum(s**6 for s in sp.symbols("s_1:9")), 0)}, (), "Gram matrix|too many"),
 ]

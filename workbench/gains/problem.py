@@ -93,8 +93,11 @@ def families_of(problem: Problem) -> tuple[Family, ...]:
         regions.append({e: c[0] for e, c in terms.items() if c[0]})
     if not problem.conditions:
         raise InputError(problem.id, "conditions", "there are none: state at least one inequality")
-    return tuple(_family(problem, name, _terms(problem, name, relation, states), regions)
-                 for name, relation in problem.conditions.items())
+    found = {name: _terms(problem, name, relation, states) for name, relation in problem.conditions.items()}
+    for name, terms in found.items():
+        if not any(any(slopes) for slopes in terms.values()):
+            raise InputError(problem.id, name, "says 0 >= 0 whatever the unknowns: leave it out")
+    return tuple(_family(problem, name, terms, regions) for name, terms in found.items())
 
 
 def affine(problem: Problem, name: str, expr: sp.Expr) -> tuple[Fraction, ...]:
