@@ -2,6 +2,7 @@
 
 import math
 from pathlib import Path
+from typing import Any
 
 import pytest
 import sympy as sp
@@ -106,3 +107,13 @@ def test_a_solver_that_comes_to_no_end_is_one_line(rate: sp.Expr, start: float) 
         assert run.failed is not None and run.found.reached_s < 2.3 and "\n" not in run.failed
         assert "finite numbers" in run.failed or "domain" in run.failed
         assert all(value is None for value in run.metrics.values())
+
+
+def test_an_input_begins_within_its_limits_or_is_refused() -> None:
+    bounded = wb.Plant("bounded", (x,), (u,), inputs=(u,), input_limits={u: (1, 5)})
+    law = wb.Law("hold", {u: 2 - x})
+    run: dict[str, Any] = {"period_s": 0.1, "duration_s": 0.1, "lag_s": {"u": 0.3}}
+    assert wb.simulate(bounded, law, initial={u: 5}, **run).to_pandas()["u"].iloc[0] == 5
+    assert wb.simulate(bounded, law, **run).to_pandas()["u"].iloc[0] == 1
+    with pytest.raises(ValueError, match=r"initial\.u = 99 is outside the input's limits, 1 to 5: give a value within"):
+        wb.simulate(bounded, law, initial={u: 99}, **run)

@@ -118,6 +118,12 @@ class Setting:
                 if not is_finite(value) or (key != "initial" and value < 0):
                     raise ValueError(f"{key}.{name} = {written(value)}: give a finite number"
                                      f"{'' if key == 'initial' else ' that is not negative'}")
+        for symbol, (low, high) in self.plant.input_limits.items():
+            # A stated number is never changed silently: within its limits alone can an input begin.
+            first = self.initial.get(str(symbol), low)
+            if not low <= first <= high:
+                raise ValueError(f"initial.{symbol} = {written(first)} is outside the input's limits, {low:g} to "
+                                 f"{high:g}: give a value within them")
         for key in ("late_s", "delay_s"):
             for name, value in getattr(self, key).items():
                 if value > self.duration_s:
