@@ -67,6 +67,17 @@ def test_what_a_premise_assumes_is_said_of_what_uses_it(name):
     assert f"proved where {taken[0]}, which it does not state" in last.fate.why
 
 
+def test_a_headline_whose_own_way_fails_says_it_too():
+    paper = Paper("p2030", "none")
+    paper.claim("0", "A line", "inequality", "x", "refuted")(lambda: Goal((at_least(x, 0),)))
+    paper.claim("1", "A line", "inequality", "x", "proved")(lambda: beyond_one(()))
+    paper.claim("2", "A line", "inequality", "x", "proved", premises=("1",), rests_on=("0",), severity="result")(
+        lambda: everywhere(paper.shown("1")))
+    last = decide_all(paper.claims)[-1]
+    assert last.fate.word == "stands with corrections"
+    assert "proved as a whole where x >= 1 (1), which it does not state, though the paper's way" in last.fate.why
+
+
 @pytest.mark.parametrize("name", AS_WIDE)
 def test_nothing_is_said_where_a_premise_assumes_no_more(name):
     last = judged(*AS_WIDE[name])[-1]

@@ -51,11 +51,11 @@ def _fate(decision: Decision, by_id: dict[str, Decision], mended: Decision | Non
         open_glyphs = tuple(line for line in decision.tainted_by if line not in failing)
         holds = "holds in its other reading" if len(open_glyphs) == 1 else "hold in their other readings"
         readings = f"; {_named(open_glyphs, by_id)} on the way {holds}" if open_glyphs else ""
+        where = f" where {listed(decision.besides)}, which it does not state," if decision.besides else ","
         if not failing:
-            where = f" where {listed(decision.besides)}, which it does not state," if decision.besides else ","
             return Fate("stands", f"proved{where} and no line that the paper uses to get there fails{readings}",
                         open_glyphs)
-        return Fate("stands with corrections", f"proved as a whole, though the paper's way there fails at "
+        return Fate("stands with corrections", f"proved as a whole{where} though the paper's way there fails at "
                     f"{_named(failing, by_id)}{readings}", failing)
     if mended is not None:
         return Fate("stands with corrections", f"{_shortfall(decision, unshown, by_id)}{instead}", (mended.claim.id,))
