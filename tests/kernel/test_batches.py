@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from workbench.kernel import coqc
-from workbench.kernel.batches import batch_text, count_of, expected_seconds, export_of, parted, planned
+from workbench.kernel.batches import batch_text, expected_seconds, export_of, parted, planned
 from workbench.kernel.export import document
 from workbench.kernel.vernacular import without_comments
 
@@ -30,14 +30,21 @@ def test_a_batch_holds_all_theorems_each_in_a_module_and_loads_once() -> None:
     assert bare is not None
     for number, one in enumerate(batch):
         module = bare.partition(f"Module Export_{number}.")[2].partition(f"End Export_{number}.")[0]
-        assert f"({number} * v_x) = (v_x * {number})" in module and module.count("Print Assumptions claim_holds.") == 1
-        assert one.text.endswith(one.theorems) and one.printed == 1
-    assert count_of(batch) == 3
+        assert f"({number} * v_x) = (v_x * {number})" in module and "Print Assumptions" not in module
+        assert one.text.endswith(one.theorems) and one.printed == ["claim_holds"]
+
+
+def test_what_the_theorems_of_a_batch_rest_on_is_asked_once_of_all() -> None:
+    text = batch_text([exported(number) for number in range(3)])
+    assert text.endswith("Definition all_hold := (Export_0.claim_holds, Export_1.claim_holds, Export_2.claim_holds).\n"
+                         "Print Assumptions all_hold.\n")
+    assert text.count("Print Assumptions") == 1
 
 
 @pytest.mark.parametrize("spoil", [
     lambda text: text + "Require Import Reals Lra.\n", lambda text: text.replace("Open Scope R_scope.", ""),
-    lambda text: f"(* {text}", lambda text: text.replace("Require Import Reals Lra.", "")])
+    lambda text: f"(* {text}", lambda text: text.replace("Print Assumptions claim_holds.", ""),
+    lambda text: text.replace("Require Import Reals Lra.", "")])
 def test_a_file_of_another_shape_is_shown_alone(spoil: Any) -> None:
     odd = export_of("mine_9.v", spoil(exported(9).text))
     assert not odd.loads
@@ -57,8 +64,13 @@ def test_batches_load_the_same_and_the_longest_come_first() -> None:
 
 def test_the_file_that_coqc_stops_at_is_taken_out_and_else_halves_are_tried() -> None:
     batch = tuple(exported(number) for number in range(4))
-    assert parted(batch, 2) == [(batch[2],), (batch[0], batch[1], batch[3])]
-    assert parted(batch, 0) == parted(batch, 4) == parted(batch, 99) == [batch[:2], batch[2:]]
+    text = batch_text(batch)
+    for at, one in enumerate(batch):
+        for mark in (f"Module Export_{at}.", f"({at} * v_x) = ", f"End Export_{at}."):
+            lines = [number for number, line in enumerate(text.splitlines(), 1) if mark in line]
+            assert [parted(batch, line) for line in lines] == [[(one,), (*batch[:at], *batch[at + 1:])]], mark
+    halves = [batch[:2], batch[2:]]
+    assert parted(batch, None) == parted(batch, 1) == parted(batch, len(text.splitlines())) == halves
 
 
 @pytest.mark.parametrize("told", [True, False])
@@ -67,26 +79,27 @@ def test_every_file_is_accepted_in_a_run_that_ends_well_or_refused_alone(
     """Whatever coqc says of a batch that fails; told: whether it says how far it came."""
     batch, runs = tuple(exported(number) for number in range(9)), list[str]()
 
-    def run(folder: Path, name: str, seconds: float) -> tuple[str, str]:
+    def run(folder: Path, name: str, seconds: float) -> coqc.Ran:
         text = (folder / name).read_text()
         runs.append(name)
-        numbers = [number for number in range(9) if f"({number} * v_x)" in text]
-        wrong = [number for number in numbers if number in (2, 7)]
-        good = len(numbers) if not wrong else numbers.index(wrong[0]) if told else 0
-        return coqc.CLOSED * good, f"of {wrong}" if wrong else ""
+        wrong = [(number, line) for line, said in enumerate(text.splitlines(), 1) for number in (2, 7)
+                 if f"({number} * v_x)" in said]
+        if wrong:
+            return coqc.Ran("", f"of {wrong[0][0]}", wrong[0][1] if told else None)
+        return coqc.Ran(coqc.CLOSED)
 
     monkeypatch.setattr(coqc, "_coqc", run)
     found = coqc._troubles(tmp_path, batch, "Batch'0", 5)
-    assert {one.name: why for one, why in found.items() if why} == {"mine_2.v": "of [2]", "mine_7.v": "of [7]"}
+    assert {one.name: why for one, why in found.items() if why} == {"mine_2.v": "of 2", "mine_7.v": "of 7"}
     assert list(map(len, (found, set(found)))) == [9, 9] and len(runs) <= 16
 
 
 def test_a_run_that_tells_less_than_it_was_asked_accepts_nothing(
         tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(coqc, "_coqc", lambda folder, name, seconds: (coqc.CLOSED, ""))
+    monkeypatch.setattr(coqc, "_coqc", lambda folder, name, seconds: coqc.Ran(coqc.CLOSED * 2))
     found = coqc._troubles(tmp_path, (exported(1), exported(2)), "B'", 5)
-    assert set(found.values()) == {""}  # each alone tells of its one theorem
-    monkeypatch.setattr(coqc, "_coqc", lambda folder, name, seconds: ("", ""))
+    assert set(found.values()) == {"says not what it rests on"}
+    monkeypatch.setattr(coqc, "_coqc", lambda folder, name, seconds: coqc.Ran(""))
     assert set(coqc._troubles(tmp_path, (exported(1), exported(2)), "B'", 5).values()) == {
         "says not what it rests on"}
 

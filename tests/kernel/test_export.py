@@ -282,7 +282,7 @@ def test_kernel_refuses_a_goal_that_is_not_so(library: Path, certificate: dict[s
     except NotExportedError:
         return
     (library / "Mutant.v").write_text(text)
-    assert _coqc(library, "Mutant.v", 120)[1]
+    assert _coqc(library, "Mutant.v", 120).trouble
 
 
 def test_axioms_are_read_from_what_coq_prints() -> None:

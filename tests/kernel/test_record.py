@@ -86,8 +86,8 @@ def test_what_was_noted_is_not_run_again_and_stays_noted(paper, tmp_path, monkey
     found, out, ran = rows(paper), tmp_path / "coq", []
     assert run("export-coq", paper, "--out", out).returncode == 0
     monkeypatch.setattr(coqc, "missing", lambda: None)
-    monkeypatch.setattr(coqc, "_coqc", lambda folder, name, seconds: (ran.append(name), ("", "no coqc here"))[1]
-                        if name.startswith("doe2031") else ("", ""))
+    monkeypatch.setattr(coqc, "_coqc", lambda folder, name, seconds: (ran.append(name), coqc.Ran("", "no coqc here"))[1]
+                        if name.startswith("doe2031") else coqc.Ran(""))
     write_record(paper, "8.16.1", accepted_goals(found, exported_texts(paper)))
     monkeypatch.setattr(record, "missing", lambda: None)
     for version, again in (("8.16.1", 1), ("8.17.0", 2)):

@@ -13,7 +13,8 @@ from workbench.kernel.vernacular import without_comments
 _EXPORT = re.compile(r"\(\*(?:(?!\(\*).)*?\*\)\n(?P<loads>(?:(?:From \w+ )?Require Import [\w ]+\.\n)+)"
                      + re.escape(OPENING) + r"(?P<theorems>.*)", re.DOTALL)
 _LOADS = re.compile(r"\b(?:Require|Import|Open)\b")
-PRINTED = "\nPrint Assumptions "
+_PRINTED = re.compile(r"^Print Assumptions (\w+)\.\n", re.M)
+ALL = "all_hold"  # the pair of pairs of all proofs of a batch
 # Processor seconds that coqc takes, measured on committed certificates: for each library, and for the text.
 SECONDS_TO_LOAD = {"Interval": 1.0, "WorkbenchFlow": 0.3, "WorkbenchFractions": 0.3, "Workbench": 0.7}
 SECONDS_A_LETTER = 3e-4
@@ -36,16 +37,16 @@ class Export:
         return SECONDS_A_LETTER * len(self.text)
 
     @property
-    def printed(self) -> int:
-        """Of how many theorems it asks what they rest on."""
-        return self.text.count(PRINTED)
+    def printed(self) -> list[str]:
+        """The theorems of which it asks what they rest on."""
+        return _PRINTED.findall(self.text)
 
 
 def export_of(name: str, text: str) -> Export:
     """A file's text in its parts."""
     parts = _EXPORT.fullmatch(text)
     bare = None if parts is None else without_comments(parts["theorems"])
-    if parts is None or bare is None or _LOADS.search(bare):
+    if parts is None or bare is None or _LOADS.search(bare) or not _PRINTED.search(bare):
         return Export(name, text, "", text)
     return Export(name, text, parts["loads"], parts["theorems"])
 
@@ -81,25 +82,28 @@ def loading_seconds(loads: str) -> float:
 
 
 def batch_text(batch: Sequence[Export]) -> str:
-    """One file with the theorems of all, each in a module of its own, so that no name of one is seen by another."""
-    modules = (f"Module Export_{number}.\n{export.theorems}End Export_{number}.\n"
-               for number, export in enumerate(batch))
-    return f"{batch[0].loads}{OPENING}" + "\n".join(modules)
+    """One file with the theorems of all, each in a module of its own, so that no name of one is seen by another.
+
+    What they rest on is asked once of all proofs together: coqc walks through a library such as Interval for each
+    question, which takes it longer than most proofs.
+    """
+    proofs = [f"Export_{number}.{name}" for number, export in enumerate(batch) for name in export.printed]
+    return (f"{batch[0].loads}{OPENING}" + "\n".join(_module(number, export) for number, export in enumerate(batch))
+            + f"\nDefinition {ALL} := ({', '.join(proofs)}).\nPrint Assumptions {ALL}.\n")
 
 
-def parted(batch: Sequence[Export], theorems: int) -> list[tuple[Export, ...]]:
-    """A batch that fails, to be tried again in two parts, given of how many theorems coqc has told what they rest on:
-    the file after these alone, and all others; in halves where that tells nothing."""
-    done = 0
+def _module(number: int, export: Export) -> str:
+    return f"Module Export_{number}.\n{_PRINTED.sub('', export.theorems)}End Export_{number}.\n"
+
+
+def parted(batch: Sequence[Export], line: int | None) -> list[tuple[Export, ...]]:
+    """A batch that fails, to be tried again in two parts, given the line of its text that coqc stops at: the file that
+    stands there alone, and all others; in halves where that tells nothing."""
+    at = len((batch[0].loads + OPENING).splitlines()) + 1
     for number, export in enumerate(batch):
-        done += export.printed
-        if done > theorems > 0:
-            others = (*batch[:number], *batch[number + 1:])
-            return [(export,), others]
+        after = at + len(_module(number, export).splitlines()) + 1
+        if line is not None and at <= line < after:
+            return [(export,), (*batch[:number], *batch[number + 1:])]
+        at = after
     half = len(batch) // 2
     return [tuple(batch[:half]), tuple(batch[half:])]
-
-
-def count_of(batch: Iterable[Export]) -> int:
-    """Of how many theorems the files ask what they rest on."""
-    return sum(export.printed for export in batch)

@@ -20,7 +20,7 @@ from workbench.files.own_files import sha256
 from workbench.files.scratch import scratch_folder
 from workbench.files.text import read_text
 from workbench.files.writing import write_text
-from workbench.kernel.batches import PRINTED, Export, batch_text, count_of, export_of, parted, planned
+from workbench.kernel.batches import Export, batch_text, export_of, parted, planned
 from workbench.kernel.export import HERE, INDEX, LIBRARY
 from workbench.kernel.vernacular import strange_sentence
 
@@ -29,6 +29,7 @@ OF_THE_REALS = ("ClassicalDedekindReals.", "FunctionalExtensionality.", "Classic
 OF_THE_MACHINE = ("PrimInt63.", "Uint63.", "PrimFloat.", "FloatAxioms.", "Uint63Axioms.", "Sint63.")
 FILE = re.compile(r"[A-Za-z0-9_]+\.v")
 AXIOMS, CLOSED = "Axioms:", "Closed under the global context"  # of each theorem, what it rests on
+LINE = re.compile(r'^File "[^"]*", line (\d+), ')  # where coqc stops
 AXIOM = re.compile(r"^([A-Za-z_][A-Za-z0-9_.']*)\s*:", re.M)
 # What the index says of every certificate, and of one that has a file.
 FIELDS: dict[str, type] = {"claim": str, "goal_digest": str, "certificate": str, "motion": bool}
@@ -110,7 +111,7 @@ def compile_library(place: Path, seconds: float) -> None:
     """This package's library in a folder, compiled; InputError where coqc refuses it."""
     for name in LIBRARY:
         write_text(place / name, read_text(HERE / name, "library"))
-        if trouble := _coqc(place, name, seconds)[1]:
+        if trouble := _coqc(place, name, seconds).trouble:
             raise InputError(HERE / name, "", f"coqc refuses the library: {trouble}")
 
 
@@ -163,32 +164,27 @@ def _look(folder: Path, name: str, digest: str) -> Export | str:
 def _troubles(place: Path, batch: tuple[Export, ...], name: str, seconds: float) -> dict[Export, str]:
     """Why each file is refused, empty where it is not; name: of the file, without its suffix, that holds them all."""
     if len(batch) == 1:
-        return {batch[0]: _trouble(place, batch[0].name, batch[0].text, seconds)}
-    said, trouble = _text_trouble(place, f"{name}.v", batch_text(batch), count_of(batch), seconds)
+        return {batch[0]: _text_trouble(place, batch[0].name, batch[0].text, len(batch[0].printed), seconds)[0]}
+    trouble, line = _text_trouble(place, f"{name}.v", batch_text(batch), 1, seconds)
     if not trouble:
         return dict.fromkeys(batch, "")
-    return {export: why for number, part in enumerate(parted(batch, said.count(AXIOMS) + said.count(CLOSED)))
+    return {export: why for number, part in enumerate(parted(batch, line))
             for export, why in _troubles(place, part, f"{name}'{number}", seconds).items()}
 
 
-def _trouble(place: Path, name: str, text: str, seconds: float) -> str:
-    """Why a file is refused; empty where Coq, in the place of the compiled library, accepts it on the axioms of the
-    reals."""
-    return _text_trouble(place, name, text, text.count(PRINTED), seconds)[1]
-
-
-def _text_trouble(place: Path, name: str, text: str, theorems: int, seconds: float) -> tuple[str, str]:
-    """What coqc says of a text of so many theorems, and why it is refused, empty where it is not."""
+def _text_trouble(place: Path, name: str, text: str, questions: int, seconds: float) -> tuple[str, int | None]:
+    """Why a text is refused, empty where Coq, in the place of the compiled library, accepts it on the axioms of the
+    reals, and the line that it stops at; questions: how often the text asks what its theorems rest on."""
     write_text(place / name, text)
-    said, trouble = _coqc(place, name, seconds)
-    if trouble:
-        return said, trouble
-    strange = [axiom for axiom in axioms_in(said) if not axiom.startswith(OF_THE_REALS + OF_THE_MACHINE)]
+    ran = _coqc(place, name, seconds)
+    if ran.trouble:
+        return ran.trouble, ran.line
+    strange = [axiom for axiom in axioms_in(ran.said) if not axiom.startswith(OF_THE_REALS + OF_THE_MACHINE)]
     if strange:
-        return said, f"rests on {', '.join(strange)}"
-    if not theorems or said.count(AXIOMS) + said.count(CLOSED) != theorems:
-        return said, "says not what it rests on"
-    return said, ""
+        return f"rests on {', '.join(strange)}", None
+    if not questions or ran.said.count(AXIOMS) + ran.said.count(CLOSED) != questions:
+        return "says not what it rests on", None
+    return "", None
 
 
 def axioms_in(said: str) -> list[str]:
@@ -199,17 +195,27 @@ def axioms_in(said: str) -> list[str]:
     return found
 
 
-def _coqc(folder: Path, name: str, seconds: float) -> tuple[str, str]:
-    """What coqc says of a file in `seconds` of processor time, and its trouble, empty where it accepts."""
+@dataclass(frozen=True)
+class Ran:
+    """What coqc says of a file; its trouble, empty where it accepts; the line that it stops at, where it names one."""
+
+    said: str
+    trouble: str = ""
+    line: int | None = None
+
+
+def _coqc(folder: Path, name: str, seconds: float) -> Ran:
+    """A file as coqc takes it in `seconds` of processor time."""
     # Of the processor's time, since the clock's depends on what else the machine does. No limit can be raised.
     most = resource.getrlimit(resource.RLIMIT_CPU)[1]
     seconds = seconds if most == resource.RLIM_INFINITY else min(seconds, most)
     command = ["sh", "-c", 'ulimit -t "$0" && exec coqc -q -R . "" "$1"', str(math.ceil(seconds)), name]
     run = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     if run.returncode == 0:
-        return run.stdout, ""
+        return Ran(run.stdout)
     if run.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
-        return run.stdout, f"takes more than {seconds:g} s"
-    lines = (run.stderr.partition("Error:")[2] or run.stderr).split("\n")
-    said = " ".join(line.strip() for line in lines if line.strip())[:300]
-    return run.stdout, said or f"coqc ends with {run.returncode} and says nothing"
+        return Ran(run.stdout, f"takes more than {seconds:g} s")
+    where, _, why = run.stderr.partition("Error:")
+    said = " ".join(line.strip() for line in (why or where).split("\n") if line.strip())[:300]
+    stops = [int(found[1]) for found in map(LINE.match, where.splitlines()) if found]
+    return Ran(run.stdout, said or f"coqc ends with {run.returncode} and says nothing", stops[-1] if stops else None)
