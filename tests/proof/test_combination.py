@@ -14,6 +14,13 @@ p, q = sp.symbols("p q", positive=True)
 half = sp.Rational(1, 2)
 weights = st.fractions(min_value=-9, max_value=9, max_denominator=7)
 
+
+
+def share(expr: sp.Expr) -> sp.Expr:
+    """Of class K, and below one."""
+    return sp.Abs(expr) / (1 + sp.Abs(expr))
+
+
 TRUE = {
     "a completed square": Goal((at_least(sp.expand((x + 2 * y) ** 2), 0),)),
     "with a positive factor": Goal((at_least(sp.expand(p * (3 * x - 5 * y) ** 2), 0),)),
@@ -24,6 +31,7 @@ TRUE = {
     "a share is below one": Goal((less(p / (1 + p), 1),)),
     "one over more than one": Goal((at_most(1 / (1 + p), 1),)),
     "a bounded fraction": Goal((at_most(x / (1 + x**2), half),)),
+    "a bounded distance": Goal((at_most(share(x - y), share(x - z) + share(z - y)),)),
 }
 FALSE = {
     "too large a product": Goal((at_most(3 * x * y, x**2 + y**2),)),
@@ -31,6 +39,7 @@ FALSE = {
     "Young with too small a weight": Goal((at_most(x * y, 3 * x**2 + y**2 / 13),)),
     "a fraction bounded too low": Goal((at_most(x / (1 + x**2), sp.Rational(49, 100)),)),
     "a denominator of either sign": Goal((greater(1 / (1 + x), 0),)),
+    "a distance bounded too low": Goal((at_most(share(x - z) + share(z - y), share(x - y)),)),
 }
 
 

@@ -34,6 +34,12 @@ def first_lemmas(goal: Goal, shown: Relation, given: Given) -> list[Lemma]:
     found += _sizes_below(shown, given, len(given) + len(found))
     found += _factors_below(shown, (*given, *(lemma for lemma, _ in found)))
     found += _cosines_below(goal, shown, (*given, *(lemma for lemma, _ in found)))
+    return found + definedness(goal, shown, (*given, *(lemma for lemma, _ in found)))
+
+
+def definedness(goal: Goal, shown: Relation, given: Given) -> list[Lemma]:
+    """The signs that a relation needs to be defined and that the checker does not see without a lemma."""
+    found: list[Lemma] = []
     for wanted in _partial(shown):
         known = (*given, *(lemma for lemma, _ in found))
         if not _seen_at_once(wanted, known):

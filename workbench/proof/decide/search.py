@@ -10,7 +10,7 @@ from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, g
 from workbench.proof.decide.case_roots import apart, has_root_of_size, not_negative, with_root
 from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.cuts import after
-from workbench.proof.decide.first_lemmas import first_lemmas, roots_below
+from workbench.proof.decide.first_lemmas import definedness, first_lemmas, roots_below
 from workbench.proof.decide.growth import EMPTY, GROWING, find_by_growth, find_by_growth_both_ways
 from workbench.proof.decide.ideals import find_by_ideal
 from workbench.proof.decide.identity import find_identity
@@ -215,9 +215,11 @@ def _search_case(goal: Goal, shown: Relation, given: Given, lemmas: Given, depth
     impossible = find_combination(goal, greater(0, 0), given, quick=True)
     if impossible is not None:
         return impossible | {"rule": "contradiction"}
-    zero = pinched(given)
-    found = search(goal, shown, (*given, *(lemma for lemma, _ in zero)), lemmas, depth)
-    return None if found is None else after(zero, found)
+    first = pinched(given)
+    # 1 + abs(x + y) is plainly not zero; 1 + x + y where x + y >= 0 wants a word.
+    first += definedness(goal, shown, (*given, *(lemma for lemma, _ in first)))
+    found = search(goal, shown, (*given, *(lemma for lemma, _ in first)), lemmas, depth)
+    return None if found is None else after(first, found)
 
 
 def _by_lemmas(goal: Goal, shown: Relation, given: Given, lemmas: Given) -> Found:
