@@ -42,10 +42,10 @@ def differing(paths: list[str], folder: Path) -> list[str]:
     """The certificates of papers' folders that are other than those found now, as <paper>/<file>."""
     found = []
     for paper in (paper for path in map(Path, paths) for paper in ([path] if is_paper(path) else papers_in(path))):
-        pairs = [{path.relative_to(place).as_posix(): path.read_bytes() for path in place.rglob("*.json")}
-                 for place in (paper / CERTIFICATES, folder / CERTIFICATES / paper.name)]
-        found += [f"{paper.name}/{name}" for name in sorted({*pairs[0], *pairs[1]})
-                  if pairs[0].get(name) != pairs[1].get(name)]
+        at_hand, found_now = ({path.relative_to(place).as_posix(): path.read_bytes() for path in place.rglob("*.json")}
+                              for place in (paper / CERTIFICATES, folder / CERTIFICATES / paper.name))
+        # What a search of gains has written is no claim of the paper's own, and not searched for here.
+        found += [f"{paper.name}/{name}" for name in sorted(found_now) if at_hand.get(name) != found_now[name]]
     return found
 
 

@@ -55,7 +55,11 @@ import json, simulation_speed as m
 m.time.perf_counter = m.time.process_time
 print(json.dumps(m.seconds_per_step(m.load_scenario(m.Path(m.__file__).parent / "yang2021.toml"), "pid")[0]))
 """
-MPC = "import json, mpc_speed; print(json.dumps(mpc_speed.measured({}, {!r}, {})))"
+MPC = """
+import importlib.util, json, mpc_speed
+peers = {} and importlib.util.find_spec("do_mpc") is not None
+print(json.dumps(mpc_speed.measured({}, {!r}, peers)))
+"""
 CARS = """
 import json, numpy, car_speed
 print(json.dumps({cars: float(numpy.median(car_speed.loop(cars, 20, 40).taken_us)) for cars in (6, 32, 64)}))
@@ -154,7 +158,7 @@ def runs(bench: Bench) -> None:
 def mpc(bench: Bench, full: bool) -> None:
     """A step of MPC of one train, easy and at a limit all the way, and of several cars."""
     for horizon, load, peers in ((20, "easy", full), (50, "hard", False)):
-        code = MPC.format(horizon, load, peers)
+        code = MPC.format(peers, horizon, load)
         now, before = ({row["solver"]: row for row in rows or ()} for rows in bench.values(code))
         for solver, row in now.items():
             for key, told in (("median_us", "median"), ("p99_us", "99th percentile")):
