@@ -19,6 +19,7 @@ from workbench.proof.decide.nearest import smallest_margin
 from workbench.proof.decide.number_roots import with_root_squares
 from workbench.proof.decide.refute import examples, find_counterexample, shown_point, value_at
 from workbench.proof.decide.search import prove_relation
+from workbench.proof.decide.square_roots import with_roots_of_squares
 from workbench.proof.derive import expand_derivatives
 from workbench.proof.fate import judged
 from workbench.proof.latex.goal import goal_latex
@@ -166,7 +167,7 @@ def attempted_proof(goal: Goal) -> Certificate | str:
         found = proofs_of(goal.evaluated(functions))
         if isinstance(found, str):
             return missing or found
-        found = with_root_squares(record, found)
+        found = with_roots_of_squares(goal, goal.evaluated(functions), with_root_squares(record, found))
         missing = "no instant was found at which all assumptions hold: they may contradict each other"
         for example in examples(goal):
             certificate: Certificate = {"version": 1, "verdict": "proved", "goal": record, **example,

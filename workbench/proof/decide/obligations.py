@@ -23,6 +23,7 @@ from workbench.proof.decide.method import method_of
 from workbench.proof.decide.number_roots import with_root_squares
 from workbench.proof.decide.reduced import reduced
 from workbench.proof.decide.refute import descended_counterexample, examples, find_counterexample, quick_examples
+from workbench.proof.decide.square_roots import with_roots_of_squares
 from workbench.proof.decide.turned import PLACES, contradictory, exclusion_of, find_carried, find_turned, renumbered
 from workbench.proof.obligation import goals_of
 from workbench.proof.text import assumptions, goal_text
@@ -149,7 +150,7 @@ def _certified(goal: Goal, proof: Proof) -> Certificate | None:
     quick = ((quick_examples, form) for form in (as_stated, *_forms(*as_stated)))
     for look, (stated, shown_by) in (*quick, (examples, as_stated)):
         record = goal_text(stated)
-        proofs = with_root_squares(record, [shown_by])
+        proofs = with_roots_of_squares(stated, stated.evaluated(), with_root_squares(record, [shown_by]))
         for example in look(stated):
             certificate: Certificate = {"version": 1, "verdict": "proved", "goal": record, **example,
                                         "proofs": proofs}

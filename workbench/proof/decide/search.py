@@ -17,6 +17,7 @@ from workbench.proof.decide.identity import find_identity
 from workbench.proof.decide.log_products import find_by_log_products
 from workbench.proof.decide.parts import find_by_parts
 from workbench.proof.decide.pivots import find_by_pivots
+from workbench.proof.decide.smoothing import smoothing_lemmas
 from workbench.proof.decide.splits import find_by_factor_signs, find_by_splits
 from workbench.proof.decide.squares import find_squares
 from workbench.proof.decide.tangents import find_by_tangents
@@ -40,6 +41,7 @@ def prove_relation(goal: Goal, shown: Relation) -> Found:
         given = assumptions(goal)
         first = pinched(given)
         first += first_lemmas(goal, shown, (*given, *(lemma for lemma, _ in first)))
+        first += smoothing_lemmas(goal, shown, (*given, *(lemma for lemma, _ in first)), search)
         known = (*given, *(lemma for lemma, _ in first))
         found = search(goal, shown, known, goal.lemmas)
         if found is None and (roots := roots_below(goal, shown, known)):
