@@ -14,6 +14,8 @@ from workbench.errors import ClaimError
 from workbench.proof.building import built
 from workbench.proof.checker import CertificateError, check, roots_of
 from workbench.proof.claim import Claim, Decision, Goal, Relation, Verdict, latex, name_of
+from workbench.proof.decide.cuts import after
+from workbench.proof.decide.first_lemmas import definedness_of_rates
 from workbench.proof.decide.method import method_of
 from workbench.proof.decide.nearest import smallest_margin
 from workbench.proof.decide.number_roots import with_root_squares
@@ -164,23 +166,35 @@ def attempted_proof(goal: Goal) -> Certificate | str:
         return "a claim of some later time is proved by naming that time"
     record, missing = goal_text(goal), ""
     for functions in (True, False):  # what sympy makes of Max, Min and abs the checker may have to be shown
-        found = proofs_of(goal.evaluated(functions))
+        usual = goal.evaluated(functions)
+        found = proofs_of(usual)
         if isinstance(found, str):
             return missing or found
-        found = with_roots_of_squares(goal, goal.evaluated(functions), with_root_squares(record, found))
-        missing = "no instant was found at which all assumptions hold: they may contradict each other"
-        for example in examples(goal):
-            certificate: Certificate = {"version": 1, "verdict": "proved", "goal": record, **example,
-                                        "proofs": found}
-            try:
-                check(certificate)
-            except CertificateError as trouble:
-                missing = f"a proof was found that the checker does not accept: {trouble}"
-                if "example" not in str(trouble):
-                    break
-            else:
-                return certificate
+        certificate, missing = _accepted(goal, record, with_roots_of_squares(
+            goal, usual, with_root_squares(record, found)))
+        if certificate is None and "not shown" in missing and (first := definedness_of_rates(usual)):
+            more = proofs_of(replace(usual, assume=(*usual.assume, *(lemma for lemma, _ in first))))
+            if not isinstance(more, str):
+                certificate, missing = _accepted(goal, record, [after(first, proof) for proof in more])
+        if certificate is not None:
+            return certificate
     return missing
+
+
+def _accepted(goal: Goal, record: dict[str, Any], proofs: list[dict[str, Any]]) -> tuple[Certificate | None, str]:
+    """The certificate with an example at which the checker accepts it, else what is missing."""
+    missing = "no instant was found at which all assumptions hold: they may contradict each other"
+    for example in examples(goal):
+        certificate: Certificate = {"version": 1, "verdict": "proved", "goal": record, **example, "proofs": proofs}
+        try:
+            check(certificate)
+        except CertificateError as trouble:
+            missing = f"a proof was found that the checker does not accept: {trouble}"
+            if "example" not in str(trouble):
+                break
+        else:
+            return certificate, ""
+    return None, missing
 
 
 def proofs_of(goal: Goal) -> list[dict[str, Any]] | str:

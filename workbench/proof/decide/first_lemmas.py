@@ -16,7 +16,7 @@ from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.laurent import goal_atoms, positive_by_terms
 from workbench.proof.decide.squares import find_squares
 from workbench.proof.decide.vanishing import vanishes
-from workbench.proof.text import text
+from workbench.proof.text import assumptions, text
 
 Lemma = tuple[Relation, dict[str, Any]]
 Given = tuple[Relation, ...]
@@ -39,8 +39,18 @@ def first_lemmas(goal: Goal, shown: Relation, given: Given) -> list[Lemma]:
 
 def definedness(goal: Goal, shown: Relation, given: Given) -> list[Lemma]:
     """The signs that a relation needs to be defined and that the checker does not see without a lemma."""
+    return _shown(goal, _partial(shown), given)
+
+
+def definedness_of_rates(goal: Goal) -> list[Lemma]:
+    """The same of the rates of the goal's flow: that an inertia m (2 + cos(q)) is positive."""
+    rates = (Relation(rate, "==", sp.S.Zero) for rate in goal.flow.values())
+    return _shown(goal, list(dict.fromkeys(wanted for rate in rates for wanted in _partial(rate))), assumptions(goal))
+
+
+def _shown(goal: Goal, wanted_signs: list[Relation], given: Given) -> list[Lemma]:
     found: list[Lemma] = []
-    for wanted in _partial(shown):
+    for wanted in wanted_signs:
         known = (*given, *(lemma for lemma, _ in found))
         if not _seen_at_once(wanted, known):
             lemma = _signed(goal, wanted, known)
@@ -158,8 +168,8 @@ def _seen_at_once(wanted: Relation, given: Given) -> bool:
                    or any(r.operator not in ("==", ">=", "<=") and vanishes(sp.cancel(r.margin / part) ** 2 - 1)
                           for r in given)
                    for part in (factor.as_base_exp()[0] for factor in sp.Mul.make_args(base)) if part.free_symbols)
-    except ClaimError:  # functions: what is known of them is the deciders' own business
-        return True
+    except ClaimError:  # functions: the checker sees the signs of all but the circle's, which have none
+        return not wanted.left.has(sp.sin, sp.cos)
 
 
 def _signed(goal: Goal, wanted: Relation, given: Given) -> Lemma | None:

@@ -15,6 +15,7 @@ from workbench.proof.decide.growth import EMPTY, GROWING, find_by_growth, find_b
 from workbench.proof.decide.ideals import find_by_ideal
 from workbench.proof.decide.identity import find_identity
 from workbench.proof.decide.log_products import find_by_log_products
+from workbench.proof.decide.over_denominator import find_over_denominator
 from workbench.proof.decide.parts import find_by_parts
 from workbench.proof.decide.pivots import find_by_pivots
 from workbench.proof.decide.smoothing import smoothing_lemmas
@@ -49,7 +50,7 @@ def prove_relation(goal: Goal, shown: Relation) -> Found:
             known = (*known, *(lemma for lemma, _ in roots))
             found = search(goal, shown, known, goal.lemmas)
         if found is None:
-            found = find_by_splits(goal, shown, known, search)
+            found = find_over_denominator(goal, shown, known, search) or find_by_splits(goal, shown, known, search)
         return None if found is None else after(first, found)
     return _by_decrease(goal, shown)
 

@@ -1,0 +1,43 @@
+"""Inertias that depend on an angle: denominators whose sign the checker does not see without a lemma."""
+
+import pytest
+import sympy as sp
+
+from workbench.proof.checker import check
+from workbench.proof.claim import D, Goal, at_least, at_most, equal, greater
+from workbench.proof.decide.engine import prove_goal
+
+q, v, x, u = sp.symbols("q v x u", real=True)
+a, b, g = sp.symbols("a b g", positive=True)
+inertia = a + b * sp.cos(q)
+arm = {q: v, v: (u - g * sp.sin(q) + b * sp.sin(q) * v**2 / 2) / inertia}
+two = {q: v, v: (u + sp.sin(q) * v**2 / 2) / (2 + sp.cos(q))}
+
+TRUE = {
+    "passivity of an arm": Goal((equal(D(inertia * v**2 / 2 - g * sp.cos(q)), u * v),), (greater(a, b),), arm,
+                                inputs=(u,)),
+    "an inertia of numbers": Goal((equal(D((2 + sp.cos(q)) * v**2 / 2), u * v),), flow=two, inputs=(u,)),
+    "a polynomial inertia": Goal((equal(D(x**2), -2 * x**2 / (q**2 - q + 1)),), flow={x: -x / (q**2 - q + 1), q: v}),
+    "a positive fraction": Goal((greater(1 / (2 + sp.cos(q)), 0),)),
+    "at most": Goal((at_most(x**2 / (2 + sp.cos(q)), x**2),)),
+    "at least": Goal((at_least(x**2 / (2 + sp.cos(q)), x**2 / 3),)),
+    "a rate at most": Goal((at_most(D(v**2 / 2), -g * v**2 / 3),), flow={v: -g * v / (2 + sp.sin(q)), q: v}),
+}
+UNPROVED = {
+    "an inertia that may vanish": Goal((equal(D(inertia * v**2 / 2 - g * sp.cos(q)), u * v),), (), arm, inputs=(u,)),
+    "another sign": Goal((equal(D((2 + sp.cos(q)) * v**2 / 2), -u * v),), flow=two, inputs=(u,)),
+    "too much": Goal((at_least(x**2 / (2 + sp.cos(q)), x**2 / 2),)),
+    "no sign": Goal((greater(1 / (1 + 2 * sp.cos(q)), 0),)),
+}
+
+
+@pytest.mark.parametrize("goal", TRUE.values(), ids=TRUE)
+def test_what_divides_by_a_positive_inertia_is_proved(goal):
+    certificate = prove_goal(goal)
+    assert certificate is not None
+    check(certificate)
+
+
+@pytest.mark.parametrize("goal", UNPROVED.values(), ids=UNPROVED)
+def test_what_is_false_or_divides_by_zero_is_not(goal):
+    assert prove_goal(goal) is None
