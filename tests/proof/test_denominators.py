@@ -1,4 +1,4 @@
-"""Inertias that depend on an angle: denominators whose sign the checker does not see without a lemma."""
+"""Denominators whose sign the checker does not see without a lemma: inertias that depend on an angle, lengths."""
 
 import pytest
 import sympy as sp
@@ -12,6 +12,10 @@ a, b, g = sp.symbols("a b g", positive=True)
 inertia = a + b * sp.cos(q)
 arm = {q: v, v: (u - g * sp.sin(q) + b * sp.sin(q) * v**2 / 2) / inertia}
 two = {q: v, v: (u + sp.sin(q) * v**2 / 2) / (2 + sp.cos(q))}
+d_1, d_2, x_1, x_2 = sp.symbols("d_1 d_2 x_1 x_2", real=True)
+k, L, V = sp.symbols("k L V", positive=True)
+length, apart = sp.sqrt(x_1**2 + x_2**2), greater(x_1**2 + x_2**2, 0)
+unit_vector = {x_1: d_1 - k * x_1 / length, x_2: d_2 - k * x_2 / length}
 
 TRUE = {
     "passivity of an arm": Goal((equal(D(inertia * v**2 / 2 - g * sp.cos(q)), u * v),), (greater(a, b),), arm,
@@ -21,12 +25,19 @@ TRUE = {
     "a positive fraction": Goal((greater(1 / (2 + sp.cos(q)), 0),)),
     "at most": Goal((at_most(x**2 / (2 + sp.cos(q)), x**2),)),
     "at least": Goal((at_least(x**2 / (2 + sp.cos(q)), x**2 / 3),)),
+    "unit vector control": Goal((at_most(D((x_1**2 + x_2**2) / 2), -(k - L) * length),),
+                                (at_most(d_1**2 + d_2**2, L**2), apart), unit_vector, inputs=(d_1, d_2)),
+    "a unit vector": Goal((equal(x_1**2 / length + x_2**2 / length, length),), (apart,)),
+    "a size by V": Goal((at_most(sp.Abs(x), sp.sqrt(2 * V)),), (at_most(x**2 / 2, V),)),
     "a rate at most": Goal((at_most(D(v**2 / 2), -g * v**2 / 3),), flow={v: -g * v / (2 + sp.sin(q)), q: v}),
 }
 UNPROVED = {
     "an inertia that may vanish": Goal((equal(D(inertia * v**2 / 2 - g * sp.cos(q)), u * v),), (), arm, inputs=(u,)),
     "another sign": Goal((equal(D((2 + sp.cos(q)) * v**2 / 2), -u * v),), flow=two, inputs=(u,)),
     "too much": Goal((at_least(x**2 / (2 + sp.cos(q)), x**2 / 2),)),
+    "too much of a length": Goal((at_most(x_1 * x_2 / length, length / 3),), (apart,)),
+    "a length that may vanish": Goal((equal(x_1**2 / length + x_2**2 / length, length),)),
+    "a size by too little": Goal((at_most(sp.Abs(x), sp.sqrt(V)),), (at_most(x**2 / 2, V),)),
     "no sign": Goal((greater(1 / (1 + 2 * sp.cos(q)), 0),)),
 }
 

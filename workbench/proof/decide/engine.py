@@ -22,6 +22,7 @@ from workbench.proof.decide.number_roots import with_root_squares
 from workbench.proof.decide.refute import examples, find_counterexample, shown_point, value_at
 from workbench.proof.decide.search import prove_relation
 from workbench.proof.decide.square_roots import with_roots_of_squares
+from workbench.proof.decide.weaker_signs import with_weaker_signs
 from workbench.proof.derive import expand_derivatives
 from workbench.proof.fate import judged
 from workbench.proof.latex.goal import goal_latex
@@ -176,6 +177,10 @@ def attempted_proof(goal: Goal) -> Certificate | str:
             more = proofs_of(replace(usual, assume=(*usual.assume, *(lemma for lemma, _ in first))))
             if not isinstance(more, str):
                 certificate, missing = _accepted(goal, record, [after(first, proof) for proof in more])
+        if certificate is None and "add up" in missing and (weaker := with_weaker_signs(usual)) is not None:
+            more = proofs_of(weaker)
+            if not isinstance(more, str):
+                certificate, missing = _accepted(goal, record, more)
         if certificate is not None:
             return certificate
     return missing
