@@ -32,8 +32,9 @@ CITATION = "J. Doe, A paper_of one's own & more, 2026"
 
 def test_every_failing_line_has_a_number_a_place_and_its_numbers(tmp_path):
     text = markdown(errata(paper(), CITATION))
-    assert [int(n) for n in re.findall(r"^### (\d+)\. ", text, re.MULTILINE)] == [1, 2, 3, 4, 5]
-    assert "### 2. Equation (4) (section 3): the line 4" in text
+    # The cause is told first, and its evidence with that of the others.
+    assert [int(n) for n in re.findall(r"^### (\d+)\. ", text, re.MULTILINE)] == [1, 1, 2, 3, 4, 5]
+    assert "### 1. Equation (4) (section 3): the line 4" in text
     assert re.search(r"Theorem 1 \([^)]+\) falls", text) and re.search(r"Lemma 2 \([^)]+\) stands", text)
     assert "$$\nz_1^2 \\ge 1\n$$" in text and "0.5^{2} = 0.25" in text
     assert "Of 2 headline statements, 1 falls and 1 stands." in text
@@ -130,7 +131,7 @@ def test_the_commands_it_names_re_check_the_certificates(tmp_path):
         done = subprocess.run([sys.executable, *command.split()[1:]], cwd=tmp_path, capture_output=True, text=True,
                               check=False)
         assert done.returncode == 0 and done.stdout.startswith("ok"), done.stdout
-    assert goal_digest(paper()[0].certificate) in commands[1]
+    assert goal_digest(paper()[0].certificate) in commands[0]
 
 
 def test_a_proof_is_told_line_by_line_and_what_is_given_has_a_number_where_it_is_used():
@@ -168,9 +169,9 @@ def test_what_rests_on_a_correction_is_told_by_numbers():
         "corrections 2, 4 to 6 and 9")
     assert corrections(["a"], {"a": 3}) == "correction 3" and corrections(["a"], {}) == ""
     text = markdown(errata(paper(), CITATION))
-    assert "**Consequence.** Theorem 1 (correction 1) rests on it." in text  # (4) is what Theorem 1 rests on
-    assert "**Consequence.** The paper gets there by equation (4) (correction 2), which fails." in text
-    assert "falls: " in text and "See correction 1." in text
+    assert "**Consequence.** Theorem 1 (correction 2) rests on it." in text  # (4) is what Theorem 1 rests on
+    assert "**Consequence.** The paper gets there by equation (4) (correction 1), which fails." in text
+    assert "See correction 2; it falls by correction 1." in text
 
 
 def test_an_open_reading_is_set_as_formulas_and_one_of_another_line_is_named():

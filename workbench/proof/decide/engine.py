@@ -21,6 +21,7 @@ from workbench.proof.decide.refute import examples, find_counterexample, shown_p
 from workbench.proof.decide.search import prove_relation
 from workbench.proof.derive import expand_derivatives
 from workbench.proof.fate import judged
+from workbench.proof.key_order import in_key_order
 from workbench.proof.latex.goal import goal_latex
 from workbench.proof.latex.match import match_claim
 from workbench.proof.premises import premises_problem
@@ -100,6 +101,7 @@ def verdict_of_failure(claim: Claim) -> Verdict:
 
 def shown_by(claim: Claim, goal: Goal, certificate: Certificate) -> Decision:
     """The decision on a claim that a certificate of it shows, which the checker has accepted."""
+    certificate = in_key_order(certificate)  # a found one is told in the same order as one that was kept
     verdict: Verdict = certificate["verdict"]
     at_values = "exact evaluation at the stated values"
     if verdict == "proved":
