@@ -127,22 +127,27 @@ def answer_card(answer: Mapping[str, Any]) -> Table:
 def claim_card(row: Mapping[str, Any]) -> Table:
     """One claim with all that is known of it."""
     from workbench.report.certificate_latex import assignments_latex
-    from workbench.report.plain_formulas import plain_formula, plain_words
+    from workbench.report.letters import letters_from
+    from workbench.report.plain_formulas import plain_formula, plain_told, plain_words
 
     table = Table.grid(padding=(0, 2))
     table.add_column(no_wrap=True, style="bold")
     table.add_column(overflow="fold")
+    own = letters_from(row.get("letters"))
+    goal = None if row["match"] == "parsed" else own.in_formula(row["goal"] or "")
+    point = list(map(own.in_formula, assignments_latex(row["counterexample"] or {})))
     recorded = "" if row["recorded"] == row["verdict"] else f", but recorded {row['recorded']}"
     known = {
         "claim": f"{row['id']}: {plain_words(row['title'])}", "statement": plain_formula(row["statement"]),
         "verdict": verdict_words(row["verdict"], row["proved_under"]) + recorded,
         "shown by": row["method"], "value": plain_words(row["computed"] or "").replace("-", "−"),
-        "counterexample": ", ".join(map(plain_formula, assignments_latex(row["counterexample"] or {}))),
+        "counterexample": ", ".join(map(plain_formula, point)),
         "corrected": plain_formula(row["correction"] or ""), "fate": _fate(row), "holds for": row["scope"],
         "stands in the paper as": f"{ORIGIN_WORDS[row['origin']]}, {row['severity']}",
         "became a goal by": f"{MATCH_WORDS[row['match']]}{': ' if row['reading'] else ''}"
                             f"{plain_words(row['reading'] or '')}",
-        "decided as": None if row["match"] == "parsed" else plain_formula(row["goal"] or ""),
+        "decided as": plain_formula(goal or ""),
+        "letters": plain_told(own.legend([goal or "", *point])),
         "other reading": f"{row['glyph_claim']}: {plain_formula(row['glyph'])}" if row["glyph"] else None,
         "mends": row["mends"],
         "rests on": ", ".join(row["rests_on"]), "our proof uses": ", ".join(row["premises"]),

@@ -35,6 +35,7 @@ from workbench.report.finding import findings
 from workbench.report.finding_sentences import findings_document
 from workbench.report.gains import gains_document, gains_result
 from workbench.report.headline import CHANGES
+from workbench.report.letters import with_letters
 from workbench.report.page import ReportContent, build_page, scenario_charts
 from workbench.report.runs import Progress, comparison_document, run_study, study_document
 from workbench.report.study_page import StudyContent, build_study_page
@@ -201,7 +202,8 @@ def _decide(asked: Asked, on_progress: Progress, timings: dict[str, float]) -> d
                           on_progress=lambda *step: on_progress("claims", *step)).decisions
         places = Places(asked.out / CERTIFICATES)
         write_certificates(decisions, places)
-        claims = {**claims_document(decisions, places), **findings_document(findings(decisions))}
+        claims = {**with_letters(claims_document(decisions, places), decisions),
+                  **findings_document(findings(decisions))}
         write_json(asked.out / "claims.json", claims)
         write_text(asked.out / CHECKER, contents(Path(checker.__file__)).decode(), ANOTHER_OUT)
     return claims

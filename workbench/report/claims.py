@@ -16,6 +16,7 @@ from workbench.proof.places import STATEMENT, place_of, subject_of, whole_of
 from workbench.proof.verdict import FAILED
 from workbench.report.certificate_latex import assignments_latex
 from workbench.report.formulas import formula, in_html
+from workbench.report.letters import letters_from
 from workbench.report.note_links import anchors_beside, linked
 from workbench.report.number_style import alike, upright
 from workbench.report.worded import worded
@@ -124,6 +125,11 @@ def _view(entry: Mapping[str, Any], verdicts: Mapping[str, str]) -> ClaimView:
     correction, beside = _text(entry.get("correction")), certificate_beside(entry)
     if beside:
         shown.append(("Certificate", Markup('<a href="{}"><code>{}</code></a>').format(quote(beside), beside)))
+    own = letters_from(entry.get("letters"))
+    goal = own.in_formula(upright(_text(entry.get("goal")))) if entry.get("match") != "parsed" else ""
+    point = list(map(own.in_formula, _assigned(entry.get("counterexample"))))
+    if (told := own.legend([goal, *point])):
+        shown.append(("Letters", in_html(told)))
     origin, severity = _text(entry.get("origin")), _text(entry.get("severity"))
     if origin:
         shown.insert(0, ("Stands as", escape(", ".join(filter(None, (ORIGINS.get(origin, origin), severity))))))
@@ -140,14 +146,14 @@ def _view(entry: Mapping[str, Any], verdicts: Mapping[str, str]) -> ClaimView:
         equation=_text(entry.get("equation")), section=_text(entry.get("section")), origin=origin, severity=severity,
         kind=_text(entry.get("kind")),
         statement=formula(_text(entry.get("statement"))),
-        decided=formula(upright(_text(entry.get("goal")))) if entry.get("match") != "parsed" else Markup(""),
+        decided=formula(goal),
         correction=formula(alike(upright(correction)) if verdict == "violated" else correction),
         correction_label=CORRECTIONS.get(verdict, "Correction"),
         verdict=verdict, sign=VERDICTS.get(verdict, "?"), recorded=recorded if recorded != verdict else "",
         method=_text(entry.get("method")), trust=TRUST.get(trust, trust), note=in_words(_text(entry.get("note"))),
         tainted_by=refs["tainted_by"], proved_under=refs["proved_under"], premises=refs["premises"],
         rests_on=refs["rests_on"],
-        counterexample=_lines(entry.get("counterexample")),
+        counterexample=tuple(map(formula, point)) or _as_typed(entry.get("counterexample")),
         facts=tuple((label, text) for label, text in shown if text), open=verdict in NOT_AS_PRINTED,
         ours=origin == "ours", fate=_text(entry.get("fate")),
         fate_why=in_words(_text(entry.get("fate_why"))), place=place.replace(STATEMENT, ""),
@@ -181,13 +187,17 @@ def in_words(text: str, letters: bool = True) -> Markup:
     return in_html(worded(text)) if letters else escape(text)
 
 
-def _lines(value: object) -> tuple[Markup, ...]:
-    """A counterexample as lines `name = value`, whatever its shape."""
-    if isinstance(value, Mapping):
-        values = {_text(name): _text(entry) for name, entry in value.items()}
-        try:
-            return tuple(map(formula, assignments_latex(values)))
-        except CertificateError:
-            return tuple(Markup("<code>{} = {}</code>").format(*pair) for pair in values.items())
-    return tuple(Markup("<code>{}</code>").format(_text(entry)) for entry in _list(value))
+def _assigned(value: object) -> list[str]:
+    """A counterexample as LaTeX, `name = value` each; empty where its values are none of a certificate's."""
+    try:
+        return assignments_latex({_text(name): _text(entry) for name, entry in value.items()}) if isinstance(
+            value, Mapping) else []
+    except CertificateError:
+        return []
 
+
+def _as_typed(value: object) -> tuple[Markup, ...]:
+    """A counterexample of another shape, line by line."""
+    lines = [f"{_text(name)} = {_text(entry)}" for name, entry in value.items()] if isinstance(
+        value, Mapping) else map(_text, _list(value))
+    return tuple(map(Markup("<code>{}</code>").format, lines))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from workbench.proof.verdict import FAILED, VERDICTS, Decision, Fate, FateWord
 from workbench.proof.wording import listed
@@ -26,19 +26,18 @@ re-checks with Python's standard library alone. Numbers in brackets are those of
 say which part of a line is meant."""
 
 
-def errata(decisions: Sequence[Decision], citation: str, letters: Mapping[str, str] | None = None,
-           at_hand: bool = True) -> list[Block]:
+def errata(decisions: Sequence[Decision], citation: str, at_hand: bool = True) -> list[Block]:
     """The errata of one paper: fates, causes, what falls with them, the evidence of each numbered correction, open
     readings, mended statements with their proofs, and how to re-check all of it.
 
-    All claims of the paper must be among the decisions, as `judged` leaves them; letters: what letters that are not the
-    paper's stand for, by their names; at_hand: whether the lines stand as the paper's own text has them.
+    All claims of the paper must be among the decisions, as `judged` leaves them; at_hand: whether the lines stand as
+    the paper's own text has them.
     """
     found = findings(decisions)
     titles = {d.claim.equation: d.claim.title for d in decisions}
-    context = context_of(found, decisions, letters or {}, PRINTED if at_hand else COMMON)
+    context = context_of(found, decisions, PRINTED if at_hand else COMMON)
     blocks = [*_fates(decisions, found, context), *in_short(found, context), *evidence(found, context),
-              *mended_statements(decisions, titles, letters or {})]
+              *mended_statements(decisions, titles)]
     failing = any(f.verdict in FAILED for f in found)
     return [Heading(1, "Corrections" if failing else "Corrections: none"), Paragraph(citation, "Paper"),
             Paragraph(ABOUT if at_hand else f"{ABOUT} {NOT_AT_HAND}"),

@@ -10,9 +10,9 @@ from workbench.proof.verdict import Decision
 from workbench.report.errata.blocks import Block, Formula, Paragraph
 from workbench.report.errata.causes import Cause, causes_of, correction_numbers
 from workbench.report.errata.chain import resting_lines
-from workbench.report.errata.letters import Letters, letters_of
 from workbench.report.finding import Finding
 from workbench.report.finding_sentences import IMPLIED, condition_sentence
+from workbench.report.letters import Letters, letters_of
 from workbench.report.worded import worded
 
 
@@ -32,15 +32,13 @@ class Context:
     told: dict[object, int] = field(default_factory=dict)
 
 
-def context_of(found: Sequence[Finding], decisions: Sequence[Decision], letters: Mapping[str, str],
-               printed: str) -> Context:
-    """The context of a paper's findings; letters: what letters that are not the paper's stand for, by their names;
-    printed: what stands in front of a line that is not only implied."""
+def context_of(found: Sequence[Finding], decisions: Sequence[Decision], printed: str) -> Context:
+    """The context of a paper's findings; printed: what stands in front of a line that is not only implied."""
     titles = {d.claim.id: d.claim.title for d in decisions}
     causes = causes_of(found, decisions)
     return Context({d.claim.equation: d.claim.title for d in decisions},
                    {d.claim.equation: titles.get(d.claim.glyph or "", "") for d in decisions},
-                   {d.claim.equation: letters_of(d.certificate, letters) for d in decisions},
+                   {d.claim.equation: letters_of(d) for d in decisions},
                    resting_lines(decisions), causes, correction_numbers(found, causes), printed)
 
 

@@ -9,6 +9,7 @@ from workbench.report.errata.blocks import Block, Code, Formula, Heading, Paragr
 from workbench.report.errata.chain import consequence
 from workbench.report.errata.conditions import LONGEST, listed_conditions
 from workbench.report.errata.context import Context, corrected, heading_of, labelled, line_of
+from workbench.report.errata.letters import legend
 from workbench.report.errata.mended import CHECKER
 from workbench.report.errata.names import noted
 from workbench.report.finding import GRAVITIES, Finding, Gravity
@@ -87,13 +88,13 @@ def _command(found: Finding) -> list[Block]:
 def _found(found: Finding, context: Context, told: bool) -> list[Block]:
     """What is wrong, if that is to be told here, what letters are, and the counterexample, unless a correction above
     has written it out."""
-    own, before = context.letters[found.equation], context.told.get(found.counterexample)
+    before = context.told.get(found.counterexample)
     finding: list[Block] = [Paragraph(verdict_sentence(found), "Finding")] if told else []
     worked: list[Block] = []
     if found.counterexample is not None and before is None:
         worked = _worked(found.counterexample, context.told)
-    legend = own.legend([*finding, *worked]) if worked else ""
-    blocks = [*own.in_blocks(finding), *labelled(("Letters", legend)), *own.in_blocks(worked)]
+    told_of = legend([*finding, *worked], context.letters[found.equation]) if worked else ""
+    blocks = [*finding, *labelled(("Letters", told_of)), *worked]
     if found.counterexample is not None and before is not None:
         blocks.append(Paragraph(f"The counterexample is that of correction {before}, where it is written out."))
     return blocks

@@ -10,6 +10,7 @@ from workbench.report.errata.blocks import Block, Heading, Item, Items, Paragrap
 from workbench.report.errata.causes import Cause
 from workbench.report.errata.chain import consequence, corrections
 from workbench.report.errata.context import Context, corrected, heading_of, labelled, line_of
+from workbench.report.errata.letters import legend
 from workbench.report.errata.names import noted
 from workbench.report.finding import Finding
 from workbench.report.finding_sentences import verdict_sentence
@@ -37,8 +38,7 @@ def in_short(found: Sequence[Finding], context: Context) -> list[Block]:
         blocks += [Heading(2, "Lines that fall with them"), Paragraph(FALLING), Items(_falling(falling, context))]
     if alone:
         blocks += [Heading(2, "Lines that fail by themselves"),
-                   Items(tuple(Item(f"{context.numbers[f.equation]}. {sentence}") for f in alone
-                               for sentence in [context.letters[f.equation].in_text(verdict_sentence(f))]))]
+                   Items(tuple(Item(f"{context.numbers[f.equation]}. {verdict_sentence(f)}") for f in alone))]
     return blocks
 
 
@@ -83,12 +83,11 @@ def _at_a_glance(cause: Cause, context: Context) -> Item:
 def _told(cause: Cause, context: Context) -> list[Block]:
     """A cause, and the lines that say the same in other letters."""
     found, *alike = cause
-    own = context.letters[found.equation]
-    finding = [Paragraph(verdict_sentence(found), "Finding")]
+    finding = Paragraph(verdict_sentence(found), "Finding")
     resting = context.resting.get(found.equation, ())
     blocks = [Heading(3, f"{context.numbers[found.equation]}. {heading_of(found)}"), line_of(found, context),
-              *corrected(found), *own.in_blocks(finding), *labelled(
-                  ("Letters", own.legend(finding)),
+              *corrected(found), finding, *labelled(
+                  ("Letters", legend([finding], context.letters[found.equation])),
                   ("Consequence", consequence(found, context.numbers, resting, context.titles)),
                   ("Note", noted(found.note, context.titles)))]
     for other in alike:
