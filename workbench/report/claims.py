@@ -19,6 +19,7 @@ from workbench.report.formulas import formula, in_html
 from workbench.report.letters import letters_from
 from workbench.report.note_links import anchors_beside, linked
 from workbench.report.number_style import alike, upright
+from workbench.report.typography import set_words
 from workbench.report.worded import worded
 
 # The order in which a reader wants to see them, with a sign for who cannot tell the colours.
@@ -184,7 +185,7 @@ def _list(value: object) -> list[Any]:
 
 def in_words(text: str, letters: bool = True) -> Markup:
     """A text with its letters, such as z_1 or rho_hat, as formulas."""
-    return in_html(worded(text)) if letters else escape(text)
+    return in_html(worded(text)) if letters else set_words(text)
 
 
 def _assigned(value: object) -> list[str]:
