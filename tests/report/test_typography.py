@@ -9,6 +9,7 @@ from workbench.report.typography import set_words
 @pytest.mark.parametrize(("typed", "printed"), [
     ("from -3.8 to (-0.5)", "from −3.8 to (−0.5)"), ("u = -1, [-4.22, 4.66]", "u = −1, [−4.22, 4.66]"),
     ("Figures 1-9 and 42(3) (2025) 642-648", "Figures 1–9 and 42(3) (2025) 642–648"),
+    ("the law (35)-(37)", "the law (35)–(37)"),
     # Names, dates and differences are as they are.
     ("ISO 2631-1, EN 14033-1:2017, 2026-11-28, x-1, mpc-2", "ISO 2631-1, EN 14033-1:2017, 2026-11-28, x-1, mpc-2"),
     ("first-order, offset-free", "first-order, offset-free"), ("a < b & c", "a &lt; b &amp; c"),

@@ -17,6 +17,7 @@ from rich.table import Table
 from rich.text import Text
 
 from workbench.cli.console import err_console
+from workbench.files.units import KWH_J
 from workbench.proof.verdict import VERDICTS, verdict_words
 
 if TYPE_CHECKING:
@@ -208,14 +209,14 @@ def metrics_table(rows: Sequence[dict[str, Any]], title: str) -> Table:
     """The controllers of a comparison beside each other."""
     table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, pad_edge=False, caption_justify="left",
                   caption=f"{ERRORS} the run; step: the time that a command takes to compute.")
-    _columns(table, "period\n(ms)", "position\nerror (mm)", "speed error\n(mm/s)", "stop\n(mm)", "energy\n(MJ)",
+    _columns(table, "period\n(ms)", "position\nerror (mm)", "speed error\n(mm/s)", "stop\n(mm)", "energy\n(kWh)",
              "step\n(µs)")
     for r in rows:
         table.add_row(
             Text(r["controller"]).append(" failed" if r["failed"] else "", "red"), f"{r['period_s'] * 1e3:.3g}",
             _range(r["position_error_min"], r["position_error_max"]),
             _range(r["speed_error_min"], r["speed_error_max"]), _number(r["stopping_error"], 1e3),
-            "–" if r["energy_J"] is None else f"{r['energy_J'] * 1e-6:.5g}", _number(r["step_us_median"]))
+            "–" if r["energy_J"] is None else f"{r['energy_J'] / KWH_J:.5g}", _number(r["step_us_median"]))
     return table
 
 
