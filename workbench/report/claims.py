@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import PurePath
@@ -32,6 +33,8 @@ FACTS = (("Stated", "stated"), ("Computed", "computed"), ("Read as", "reading"),
          ("Mends", "mends"), ("Scope", "scope"))
 ORIGINS = {"printed": "a line of the paper", "implied": "a step the paper takes without words",
            "ours": "a question of ours"}
+
+_SECTION = re.compile(r"\d+(?:\.\d+)*")
 
 
 @dataclass(frozen=True)
@@ -103,11 +106,14 @@ def fated(claims: Sequence[ClaimView]) -> list[ClaimView]:
 
 
 def by_section(claims: Sequence[ClaimView]) -> list[tuple[str, list[ClaimView]]]:
-    """The claims of each section, in their order; one group where no section is known."""
+    """The claims of each section, by the sections' numbers, as they come where these are none; what has no section
+    after them; one group where no section is known."""
     groups: dict[str, list[ClaimView]] = {}
     for claim in claims:
         groups.setdefault(claim.section, []).append(claim)
-    return list(groups.items())
+    numbered = all(_SECTION.fullmatch(section) for section in groups if section)
+    return sorted(groups.items(), key=lambda group: (not group[0], [
+        int(part) for part in group[0].split(".")] if numbered and group[0] else []))
 
 
 def counts(claims: Sequence[ClaimView]) -> dict[str, int]:
