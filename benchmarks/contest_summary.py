@@ -16,7 +16,8 @@ from pathlib import Path
 from pydantic import TypeAdapter
 
 from workbench.cli.loading import load
-from workbench.contest.by_period import at_each_period, period_findings
+from workbench.contest.best_trackers import best_trackers_table
+from workbench.contest.by_period import TRACKING, at_each_period, period_findings
 from workbench.contest.entrants import information
 from workbench.contest.journal import JOURNAL_NAME, contest_digest
 from workbench.contest.matches import Match, entries, rounds
@@ -31,6 +32,7 @@ from workbench.paper.results import ResultTable
 
 CONTEST, MINIMAX = (Path(__file__).with_name(f"{name}.toml") for name in ("common", "minimax"))
 SHOWN = ("position_rms", "speed_rms", "stopping_error", "energy_J", "jerk_rms", "comfort_rms", "switchings_per_s")
+
 
 def rests_on(folder: Path, contest: Contest) -> Iterator[str]:
     """By which code a journal was played."""
@@ -70,11 +72,6 @@ def table(headings: list[str], rows: list[list[str]]) -> Iterator[str]:
     yield ""
 
 
-def short_name(name: str, period_s: float) -> str:
-    """A controller in a column of its period, broken where a telephone needs it."""
-    return name.replace(f"_{1e3 * period_s:g}ms", "").replace("_", "_<wbr>")
-
-
 def of_period(own: Told, condition: str) -> Iterator[str]:
     """Who samples alike under a condition, best tracker first: means with intervals, ● those that may be best."""
     names, rows = own.entries, []
@@ -105,17 +102,13 @@ def page(told: Told, contest: Contest, fronts: list[Front], folder: Path) -> Ite
         "All controllers on one train and line, under the same actuator, draws, noise and failures; ranked among those "
         "who command equally often. A + marks parameters that were tuned, by the same budget for all.", "",
         "## Headline", "", *(f"- {words}" for words in period_findings(told)), "")
-    groups = list(at_each_period(told))
-    yield from ("## The best tracker by condition", "",
-                "The time between commands heads a column; names are without it.", "")
-    rows = [[stated.title, *(", ".join(short_name(best, period) for best in own.best(name, "position_rms"))
-                             for period, own in groups), str(told.runs(name))]
-            for name, stated in told.contest.conditions.items()]
-    yield from table(["condition", *(f"{1e3 * period:g} ms" for period, _ in groups), "draws"], rows)
-    short = [row[0] for row in rows if any(", " in cell for cell in row[1:-1]) and 1 < int(row[-1]) < contest.seeds]
+    groups, best = list(at_each_period(told)), best_trackers_table(told)
+    if best is not None:
+        yield from ("## The best tracker by condition", "", *shown(best))
+    short = [stated.title for name, stated in told.contest.conditions.items() if 1 < told.runs(name) < contest.seeds
+             and any(len(own.best(name, TRACKING)) > 1 for _, own in groups)]
     if short:
-        yield from (f"Several stand in one place where more draws, up to {contest.seeds}, may part them and were not "
-                    f"played: {'; '.join(short)}.", "")
+        yield from (f"More draws, up to {contest.seeds}, may part a tie and were not played: {'; '.join(short)}.", "")
     yield from (
         "## How it was played", "",
         "- Behind the actuator of `benchmarks/common_run.toml`, unless the condition says otherwise.",
@@ -157,8 +150,8 @@ def worst(told: Told) -> Iterator[str]:
 
 
 def shown(found: ResultTable) -> Iterator[str]:
-    """A table of the report."""
-    yield from table(list(found.headings), [list(row) for row in found.text])
+    """A table of the report; names break where a telephone needs it."""
+    yield from table(list(found.headings), [[cell.replace("_", "_<wbr>") for cell in row] for row in found.text])
     if found.note:
         yield from (found.note, "")
 

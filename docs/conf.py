@@ -28,6 +28,7 @@ os.environ["TTY_COMPATIBLE"] = "0"  # no colours and no progress bars in outputs
 
 import generated_pages
 import shell_cells
+from accessible import accessible, accessible_tree, with_names_of_asides
 
 import workbench
 from workbench.report.formulas import formula
@@ -81,6 +82,8 @@ def setup(app: Any) -> None:
     app.connect("config-inited", lambda _app, _config: generated_pages.write(HERE / "generated"))
     app.connect("source-read", _named_after_its_paper)
     app.connect("missing-reference", _public_name)
+    app.connect("html-page-context", _accessible, priority=900)  # after the theme has made its list of pages
+    app.connect("build-finished", _name_asides)
     app.connect("build-finished", _nothing_from_elsewhere)
 
 
@@ -88,6 +91,17 @@ def _named_after_its_paper(_app: Any, name: str, source: list[str]) -> None:
     """Errata are all headed alike; in a list of them and at the edge of a page their paper tells them apart."""
     if name.endswith("/errata"):
         source[0] = source[0].replace("# Corrections", f"# Corrections to {name.split('/')[-2]}", 1)
+
+
+def _accessible(_app: Any, _name: str, _template: str, context: dict[str, Any], _document: Any) -> None:
+    context["body"] = accessible(context.get("body", ""))
+    if "furo_navigation_tree" in context:
+        context["furo_navigation_tree"] = accessible_tree(context["furo_navigation_tree"])
+
+
+def _name_asides(app: Any, trouble: Exception | None) -> None:
+    for path in sorted(Path(app.outdir).rglob("*.html")) if trouble is None else ():
+        path.write_text(with_names_of_asides(path.read_text(encoding="utf-8")), encoding="utf-8")
 
 
 def _inline(self: Any, node: nodes.math) -> None:

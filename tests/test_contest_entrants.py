@@ -3,6 +3,7 @@
 import json
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -23,6 +24,7 @@ from workbench.contest.told import ARRIVED_M, Told
 from workbench.files.folders import held_in
 from workbench.model.sensing import Sensing
 from workbench.paper.statistics import Bootstrap, overtakes, rankings
+from workbench.report.build import Asked
 from workbench.report.study_page import StudyContent, build_study_page
 from workbench.simulate.closed_loop import Setting, setting_of
 from workbench.trains.scenario import Scenario, load_scenario
@@ -147,3 +149,9 @@ def test_the_contest_of_yang2021_reads_and_its_entrants_fit() -> None:
     assert {"mpc", "mpc_offset_free", "mpc_tube", "rbfnn_pocrac"} <= set(of.controllers)
     told = Told(found, of, (), None)
     assert not list(learning_tables(told)) and not learners(told) and not list(energy_table(told))
+
+
+def test_a_report_on_a_contest_asks_for_no_gains(tmp_path: Path) -> None:
+    """These are stated in the scenario that it drives: its own file has none of their numbers."""
+    asked = Asked.of(load(PROOFS / "yang2021" / "contest.toml"), (), tmp_path / "out", with_gains=True)
+    assert asked.gains is None

@@ -90,9 +90,9 @@ def test_the_committed_errata_are_what_is_made_now(paper, decisions):
     stated = next(found for found in collect_papers([PROOFS / paper]) if found.name == paper)
     own = [d for d in decisions.values() if d.claim.paper == paper]
     folder = PROOFS.parent / "docs" / "errata" / paper
-    texts = errata_texts(own, stated.citation, stated.letters, stated.at_hand)
+    texts = errata_texts(own, stated.citation, stated.at_hand)
     assert texts["errata.md"] == (folder / "errata.md").read_text(encoding="utf-8")
-    made = made_in_a_fork(pdf_of, errata(own, stated.citation, stated.letters, stated.at_hand))
+    made = made_in_a_fork(pdf_of, errata(own, stated.citation, stated.at_hand))
     assert made == (folder / "errata.pdf").read_bytes()
 
 

@@ -20,20 +20,21 @@ from workbench.report.errata.blocks import Code, Formula, Heading, Item, Items, 
 from workbench.report.errata.chain import corrections
 from workbench.report.errata.content import errata
 from workbench.report.errata.latex import latex_document
-from workbench.report.errata.letters import letters_of
 from workbench.report.errata.markdown import markdown
 from workbench.report.errata.names import noted
 from workbench.report.errata.page import html_document
 from workbench.report.errata.proof_steps import proof_steps
 from workbench.report.errata.write import NO_PDF, write_errata
+from workbench.report.letters import letters_in
 
 CITATION = "J. Doe, A paper_of one's own & more, 2026"
 
 
 def test_every_failing_line_has_a_number_a_place_and_its_numbers(tmp_path):
     text = markdown(errata(paper(), CITATION))
-    assert [int(n) for n in re.findall(r"^### (\d+)\. ", text, re.MULTILINE)] == [1, 2, 3, 4, 5]
-    assert "### 2. Equation (4) (section 3): the line 4" in text
+    # The cause is told first, and its evidence with that of the others.
+    assert [int(n) for n in re.findall(r"^### (\d+)\. ", text, re.MULTILINE)] == [1, 1, 2, 3, 4, 5]
+    assert "### 1. Equation (4) (section 3): the line 4" in text
     assert re.search(r"Theorem 1 \([^)]+\) falls", text) and re.search(r"Lemma 2 \([^)]+\) stands", text)
     assert "$$\nz_1^2 \\ge 1\n$$" in text and "0.5^{2} = 0.25" in text
     assert "Of 2 headline statements, 1 falls and 1 stands." in text
@@ -92,7 +93,8 @@ def test_a_motion_is_written_out_with_the_loop_that_it_obeys_once():
 def test_how_a_line_was_read_and_what_letters_stand_for_is_said():
     rows = [replace(d, claim=replace(d.claim, reading="theta_hat is read as z_1.")) if d.claim.equation == "6" else d
             for d in paper()]
-    text = markdown(errata(rows, CITATION, {"k": r"the root of $\Gamma$", "z_1": "an entry of z_tilde"}))
+    letters = {"k": r"the root of $\Gamma$", "z_1": "an entry of z_tilde"}
+    text = markdown(errata([replace(d, letters=letters) for d in rows], CITATION))
     assert "**Read as.** $\\hat{\\theta}$ is read as $z_{1}$." in text
     assert "**Letters.** $k$ is the root of $\\Gamma$." in text[text.index("### 3."):text.index("### 4.")]
     assert "**Letters.** $z_{1}$ is an entry of $\\tilde{z}$." in text[text.index("Theorem 1, mended"):]
@@ -130,7 +132,7 @@ def test_the_commands_it_names_re_check_the_certificates(tmp_path):
         done = subprocess.run([sys.executable, *command.split()[1:]], cwd=tmp_path, capture_output=True, text=True,
                               check=False)
         assert done.returncode == 0 and done.stdout.startswith("ok"), done.stdout
-    assert goal_digest(paper()[0].certificate) in commands[1]
+    assert goal_digest(paper()[0].certificate) in commands[0]
 
 
 def test_a_proof_is_told_line_by_line_and_what_is_given_has_a_number_where_it_is_used():
@@ -168,9 +170,9 @@ def test_what_rests_on_a_correction_is_told_by_numbers():
         "corrections 2, 4 to 6 and 9")
     assert corrections(["a"], {"a": 3}) == "correction 3" and corrections(["a"], {}) == ""
     text = markdown(errata(paper(), CITATION))
-    assert "**Consequence.** Theorem 1 (correction 1) rests on it." in text  # (4) is what Theorem 1 rests on
-    assert "**Consequence.** The paper gets there by equation (4) (correction 2), which fails." in text
-    assert "falls: " in text and "See correction 1." in text
+    assert "**Consequence.** Theorem 1 (correction 2) rests on it." in text  # (4) is what Theorem 1 rests on
+    assert "**Consequence.** The paper gets there by equation (4) (correction 1), which fails." in text
+    assert "See correction 2; it falls by correction 1." in text
 
 
 def test_an_open_reading_is_set_as_formulas_and_one_of_another_line_is_named():
@@ -199,15 +201,15 @@ def test_a_sentence_with_a_power_can_break_and_a_label_keeps_to_its_formula():
 
 
 def test_letters_of_ours_are_written_as_the_paper_writes_them():
-    own = letters_of({"goal": {"show": ["k_v*rho_k_hat**2*s <= rho_0**2*b"], "flow": {"rho_k_hat": "rho_k_hat_dot"}}},
+    own = letters_in({"goal": {"show": ["k_v*rho_k_hat**2*s <= rho_0**2*b"], "flow": {"rho_k_hat": "rho_k_hat_dot"}}},
                      {"k_v": r"$k_\nu$", "rho_k_hat": r"$\hat\rho_{k\nu}$", "rho_0": r"$\rho_i^0$", "b": "$T_s/M$",
                       "s": "the sign of $z_2$", "w": "$x$"})
     formula = own.in_formula(r"\dot{\hat{\rho}}_{k} = k_{v} \hat{\rho}_{k}^{2} s \le \rho_{0}^{2} b + k_{va}")
     assert formula == r"\dot{\hat\rho}_{k\nu} = k_\nu \hat\rho_{k\nu}^{2} s \le \left(\rho_i^0\right)^{2} b + k_{va}"
-    assert own.legend([Formula(r"s \le 1")]) == "$s$ is the sign of $z_2$."
+    assert own.legend([r"s \le 1"]) == "$s$ is the sign of $z_2$."
     # Where two would look alike, neither is written as the other.
-    twins = letters_of({"goal": {"show": ["d_i <= d"]}}, {"d_i": "$d$"})
-    assert twins.in_formula(r"d_{i} \le d") == r"d_{i} \le d" and twins.legend([Formula("d_{i}")]) == "$d_{i}$ is $d$."
+    twins = letters_in({"goal": {"show": ["d_i <= d"]}}, {"d_i": "$d$"})
+    assert twins.in_formula(r"d_{i} \le d") == r"d_{i} \le d" and twins.legend(["d_{i}"]) == "$d_{i}$ is $d$."
 
 
 @pytest.mark.parametrize("proof", [
@@ -261,3 +263,9 @@ def test_the_same_decisions_make_the_same_bytes():
     blocks = errata(paper(), CITATION)
     assert pdf.pdf_of(blocks) == pdf.pdf_of(errata(paper(), CITATION))
     assert markdown(blocks) == markdown(errata(paper(), CITATION))
+
+
+def test_the_rate_of_a_letter_is_written_as_the_letter_is():
+    """Of a goal that names the rate alone, too."""
+    own = letters_in({"goal": {"show": ["rho_k_hat_dot == 1"]}}, {"rho_k_hat": r"$\hat\rho_{k\nu}$"})
+    assert own.in_formula(r"\dot{\hat{\rho}}_{k} = 1") == r"\dot{\hat\rho}_{k\nu} = 1"

@@ -23,7 +23,7 @@ from workbench.report.finding_sentences import (
     sentences,
     verdict_sentence,
 )
-from workbench.report.findings_view import finding_groups
+from workbench.report.findings_view import fated_findings, finding_groups
 from workbench.report.plain_formulas import plain_formula
 from workbench.report.worded import math, show, worded
 
@@ -269,3 +269,18 @@ def test_words_keep_their_letters_as_formulas(text, shown):
 def test_a_formula_with_dollars_of_its_own_does_not_end_early():
     printed = r"\text{for all $k$}"
     assert show(f"it is {math(printed)}.", lambda latex: f"<{latex}>") == f"it is <{printed}>."
+
+
+def test_a_page_tells_a_headline_statement_once():
+    """With its fate, not among the findings again; what would only repeat the reason is left out."""
+    document = findings_document(findings(paper()))
+    fate = {"id": "doe2026:theorem1", "fate": "falls", "fate_why": "refuted by a counterexample"}
+    told = {view.place for group in finding_groups(document | {"claims": [fate]}) for view in group.findings}
+    assert "Theorem 1" not in told and "Equation (4)" in told
+    (view,) = fated_findings(document | {"claims": [fate]}).values()
+    assert view.place == "Theorem 1" and "is false as printed" in view.sentence and view.command
+    proved = [{**entry, "verdict": "proved"} for entry in document["findings"]]
+    (view,) = fated_findings({"findings": proved, "claims": [fate]}).values()
+    assert view.sentence == ""
+    # A document that tells no fate has it among the findings.
+    assert "Theorem 1" in {view.place for group in finding_groups(document) for view in group.findings}

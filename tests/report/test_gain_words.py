@@ -4,16 +4,22 @@ from __future__ import annotations
 
 import pytest
 
-from workbench.report.gain_words import heading, letter, spoken, with_powers
+from workbench.paper.results import ResultTable
+from workbench.report.gain_words import column, letter, spoken, with_powers
 
 
-@pytest.mark.parametrize(("key", "words", "column"), [
+@pytest.mark.parametrize(("key", "words", "heading"), [
     ("s_tilde_m_rms", "RMS of s_tilde", "RMS of s_tilde (m)"), ("speed_mps_rms", "RMS of speed", "RMS of speed (m/s)"),
     ("mse_50", "mean squared error of trial 50", "mean squared error of trial 50"),
     ("position_rms", "RMS of the position error", "RMS of the position error (m)"),
     ("q1_error_largest", "q1 error largest", "q1 error largest")])
-def test_a_number_is_called_by_words_and_its_column_by_its_unit_too(key, words, column):
-    assert spoken(key) == words and heading(key) == column
+def test_a_number_is_called_by_words_and_its_column_by_its_unit_too(key, words, heading):
+    assert spoken(key) == words and column(key).heading == heading
+
+
+def test_energies_stand_in_the_unit_of_the_page():
+    table = ResultTable("runs", "ours", (column("energy_J"), column("braking_energy_J")), ((7.2e6, 3.6e6),))
+    assert table.headings == ("energy (kWh)", "braking energy (kWh)") and table.text == (("2.00", "1.00"),)
 
 
 def test_a_gain_is_called_by_its_letter():

@@ -32,7 +32,7 @@ def command(paper: Annotated[str, typer.Argument(metavar="PAPER", help="A paper'
         check_outputs({}, [file for target in found for file in target.inputs()], {"--out": (folder, FILES)})
         stated = next(p for p in collect_papers([place]) if p.name == name)
         own = [d for d in proof.decisions if d.claim.paper == name]
-        written, missing = write_errata(own, stated.citation, folder, stated.letters, stated.at_hand)
+        written, missing = write_errata(own, stated.citation, folder, stated.at_hand)
         for path in written:
             out_console.print(str(path), soft_wrap=True, highlight=False)
         if missing:

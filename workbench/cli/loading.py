@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from workbench.paper import loading
-from workbench.paper.loading import Loaded
+from workbench.paper.loading import CONTEST, Loaded
 
 if TYPE_CHECKING:
     from workbench.paper.study import StudyKind
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 def load(path: Path) -> Loaded:
     """A scenario, a study, a contest, or a paper's folder; InputError naming file, key and remedy."""
-    return loading.load(path, {"contest": _contest})
+    return loading.load(path, {CONTEST: _contest})
 
 
 def _contest() -> StudyKind:

@@ -21,13 +21,14 @@ def command(claim: Annotated[str, typer.Argument(metavar="ID", help="PAPER:EQUAT
     from workbench.proof.document import claims_document, places
     from workbench.proof.prove import prove
     from workbench.proof.selection import targets
+    from workbench.report.letters import with_letters
 
     paper, _, equation = claim.replace("::", ":").partition(":")
     found = targets([f"{path_of(paper)}::{equation or '*'}"])
     check_outputs({"--json": json}, [file for target in found for file in target.inputs()])
     with progress() as show:
         proof = prove(found, on_progress=lambda done, total: show("claims", done, total))
-    document = claims_document(proof.decisions, places(proof, None))
+    document = with_letters(claims_document(proof.decisions, places(proof, None)), proof.decisions)
     for row in document["claims"]:
         if row["certificate"] and not Path(row["certificate"]).is_file():
             row["certificate"] = None

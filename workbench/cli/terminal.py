@@ -17,6 +17,7 @@ from rich.table import Table
 from rich.text import Text
 
 from workbench.cli.console import err_console
+from workbench.files.units import KWH_J
 from workbench.proof.verdict import VERDICTS, verdict_words
 
 if TYPE_CHECKING:
@@ -127,22 +128,27 @@ def answer_card(answer: Mapping[str, Any]) -> Table:
 def claim_card(row: Mapping[str, Any]) -> Table:
     """One claim with all that is known of it."""
     from workbench.report.certificate_latex import assignments_latex
-    from workbench.report.plain_formulas import plain_formula, plain_words
+    from workbench.report.letters import letters_from
+    from workbench.report.plain_formulas import plain_formula, plain_told, plain_words
 
     table = Table.grid(padding=(0, 2))
     table.add_column(no_wrap=True, style="bold")
     table.add_column(overflow="fold")
+    own = letters_from(row.get("letters"))
+    goal = None if row["match"] == "parsed" else own.in_formula(row["goal"] or "")
+    point = list(map(own.in_formula, assignments_latex(row["counterexample"] or {})))
     recorded = "" if row["recorded"] == row["verdict"] else f", but recorded {row['recorded']}"
     known = {
         "claim": f"{row['id']}: {plain_words(row['title'])}", "statement": plain_formula(row["statement"]),
         "verdict": verdict_words(row["verdict"], row["proved_under"]) + recorded,
         "shown by": row["method"], "value": plain_words(row["computed"] or "").replace("-", "−"),
-        "counterexample": ", ".join(map(plain_formula, assignments_latex(row["counterexample"] or {}))),
+        "counterexample": ", ".join(map(plain_formula, point)),
         "corrected": plain_formula(row["correction"] or ""), "fate": _fate(row), "holds for": row["scope"],
         "stands in the paper as": f"{ORIGIN_WORDS[row['origin']]}, {row['severity']}",
         "became a goal by": f"{MATCH_WORDS[row['match']]}{': ' if row['reading'] else ''}"
                             f"{plain_words(row['reading'] or '')}",
-        "decided as": None if row["match"] == "parsed" else plain_formula(row["goal"] or ""),
+        "decided as": plain_formula(goal or ""),
+        "letters": plain_told(own.legend([goal or "", *point])),
         "other reading": f"{row['glyph_claim']}: {plain_formula(row['glyph'])}" if row["glyph"] else None,
         "mends": row["mends"],
         "rests on": ", ".join(row["rests_on"]), "our proof uses": ", ".join(row["premises"]),
@@ -203,14 +209,14 @@ def metrics_table(rows: Sequence[dict[str, Any]], title: str) -> Table:
     """The controllers of a comparison beside each other."""
     table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, pad_edge=False, caption_justify="left",
                   caption=f"{ERRORS} the run; step: the time that a command takes to compute.")
-    _columns(table, "period\n(ms)", "position\nerror (mm)", "speed error\n(mm/s)", "stop\n(mm)", "energy\n(MJ)",
+    _columns(table, "period\n(ms)", "position\nerror (mm)", "speed error\n(mm/s)", "stop\n(mm)", "energy\n(kWh)",
              "step\n(µs)")
     for r in rows:
         table.add_row(
             Text(r["controller"]).append(" failed" if r["failed"] else "", "red"), f"{r['period_s'] * 1e3:.3g}",
             _range(r["position_error_min"], r["position_error_max"]),
             _range(r["speed_error_min"], r["speed_error_max"]), _number(r["stopping_error"], 1e3),
-            "–" if r["energy_J"] is None else f"{r['energy_J'] * 1e-6:.5g}", _number(r["step_us_median"]))
+            "–" if r["energy_J"] is None else f"{r['energy_J'] / KWH_J:.5g}", _number(r["step_us_median"]))
     return table
 
 

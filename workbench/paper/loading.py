@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     Kinds = Mapping[str, Callable[[], StudyKind]]
 
-PLANT = "plant"
+PLANT, CONTEST = "plant", "contest"  # what `kind` says of files that need no code of their own
 
 
 @dataclass(frozen=True)

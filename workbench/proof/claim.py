@@ -269,7 +269,8 @@ class Claim(Stated):
     nearest true statement; repair: parameters at which a violated condition holds; axiom: a cited result that
     is assumed; unstated: why a line has no goal yet. closed_loop: the goal assumes the printed plant, law and
     adaptation and nothing else, so that a motion of it that breaks the statement refutes it. notation: what the
-    letters of the printed line stand for.
+    letters of the printed line stand for; letters: what those of the goal that are not the paper's stand for, by their
+    names.
     """
 
     build: Callable[[], Goal] | None
@@ -281,6 +282,7 @@ class Claim(Stated):
     unstated: str | None = None
     closed_loop: bool = False
     notation: Mapping[str, sp.Expr] = field(default_factory=dict)
+    letters: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         super().__post_init__()

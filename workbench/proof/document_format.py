@@ -13,6 +13,14 @@ from workbench.proof.oracle.opinion import OracleRow
 from workbench.proof.verdict import FateWord, Kind, Match, Origin, Severity, Verdict
 
 
+class LettersRow(TypedDict):
+    """Letters of a goal that are not the paper's, by their LaTeX: written: those that stand for one symbol, as the
+    paper writes it; told: what the others stand for, formulas between dollar signs."""
+
+    written: dict[str, str]
+    told: dict[str, str]
+
+
 class ClaimRow(TypedDict):
     """A claim and what was decided of it.
 
@@ -22,7 +30,8 @@ class ClaimRow(TypedDict):
     it uses assume and it does not, as `x >= 1 (3)`; trust: how far the verdict
     is checked; recorded: the verdict that the paper's file states; glyph, glyph_claim: the other reading, and the row
     that decides it; goal_digest: sha256 of what was decided; fate: of a headline statement, with its reason and the
-    rows that decide it; seconds: of processor time; oracle: where one was asked, what it says.
+    rows that decide it; seconds: of processor time; oracle: where one was asked, what it says; letters: in a report's
+    document and that of `show`.
     """
 
     id: str
@@ -61,6 +70,7 @@ class ClaimRow(TypedDict):
     fate_why: str | None
     fate_by: list[str]
     oracle: NotRequired[OracleRow]
+    letters: NotRequired[LettersRow]
 
 
 class OfPaperAndOurs(TypedDict):

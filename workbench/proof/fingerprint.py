@@ -15,7 +15,7 @@ from workbench.proof.claim import Claim
 
 # Shown beside a verdict, but never looked at to reach it; how a line matches its goal is found anew each time.
 NOT_DECIDED_ON = {"title", "printed", "recorded", "premises", "rests_on", "origin", "severity", "match", "reading",
-                       "glyph", "mends", "scope", "note", "notation"}
+                       "glyph", "mends", "scope", "note", "notation", "letters"}
 
 
 def fingerprint(claim: Claim) -> str | None:

@@ -61,7 +61,7 @@ class Paper:
                 glyph=glyph and self._id(glyph), mends=mends and self._id(mends), closed_loop=closed_loop,
                 notation={**self.notation, **(where or {})}, scope=scope, at=at, correction=correction,
                 corrected_statement=corrected_statement, repair=repair, note=note or (build.__doc__ or "").strip(),
-                section=section or named_section(equation) or section_of(build.__module__),
+                section=section or named_section(equation) or section_of(build.__module__), letters=self.letters,
             ))
             return build
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from workbench.errors import ClaimError
@@ -144,7 +144,8 @@ class Fate:
 class Decision:
     """A claim decided: the verdict, the certificate that shows it, and how it was found.
 
-    goal: LaTeX made of what was decided; match: `parsed` where a machine found the printed line in the goal.
+    goal: LaTeX made of what was decided; match: `parsed` where a machine found the printed line in the goal; letters:
+    what letters of the goal that are not the paper's stand for, by their names.
     tainted_by (failed claims in the paper's chain), proved_under (claims that a proof uses and that are not shown),
     besides (what these claims assume and this one does not, as `x >= 1 (3)`), fate and other_reading (the printed line
     of the claim that decides it) come from the other claims.
@@ -161,6 +162,7 @@ class Decision:
     computed: str | None = None
     match: Match | None = None
     goal: str | None = None
+    letters: dict[str, str] = field(default_factory=dict)
     tainted_by: tuple[str, ...] = ()
     proved_under: tuple[str, ...] = ()
     besides: tuple[str, ...] = ()

@@ -19,7 +19,7 @@ from workbench.files.writing import make_folder, require_inside, write_text
 from workbench.gains.result import GainReport
 from workbench.paper.gain_effects import NONE_YET, effects, gains_of, left_out
 from workbench.paper.gain_search import Runs, gain_search_of
-from workbench.paper.loading import Loaded
+from workbench.paper.loading import CONTEST, Loaded
 from workbench.paper.recorded_front import searched_or_recorded, shown_fronts
 from workbench.paper.reproduced import ReproducedStudy
 from workbench.paper.results import StudyResult
@@ -35,6 +35,7 @@ from workbench.report.finding import findings
 from workbench.report.finding_sentences import findings_document
 from workbench.report.gains import gains_document, gains_result
 from workbench.report.headline import CHANGES
+from workbench.report.letters import with_letters
 from workbench.report.page import ReportContent, build_page, scenario_charts
 from workbench.report.runs import Progress, comparison_document, run_study, study_document
 from workbench.report.study_page import StudyContent, build_study_page
@@ -79,7 +80,9 @@ class Asked:
         if loaded.kind is None:
             checked_variants(loaded.path, loaded.data, loaded.scenario, True)
         make_folder(out, out, ANOTHER_OUT)
-        gains = gains_of(loaded) if with_gains and gain_search_of(loaded) is not None else None
+        # A contest drives another file's scenario, which is where gains are stated.
+        searched = with_gains and loaded.data.get("kind") != CONTEST and gain_search_of(loaded) is not None
+        gains = gains_of(loaded) if searched else None
         named = [str(loaded.path), *proofs]
         command = f"workbench report {' '.join(named)} --out {out}{' --full' if full else ''}"
         return cls(loaded, asked, out, gains, resume, workers, command, full)
@@ -201,7 +204,8 @@ def _decide(asked: Asked, on_progress: Progress, timings: dict[str, float]) -> d
                           on_progress=lambda *step: on_progress("claims", *step)).decisions
         places = Places(asked.out / CERTIFICATES)
         write_certificates(decisions, places)
-        claims = {**claims_document(decisions, places), **findings_document(findings(decisions))}
+        claims = {**with_letters(claims_document(decisions, places), decisions),
+                  **findings_document(findings(decisions))}
         write_json(asked.out / "claims.json", claims)
         write_text(asked.out / CHECKER, contents(Path(checker.__file__)).decode(), ANOTHER_OUT)
     return claims

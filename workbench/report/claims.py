@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import PurePath
@@ -16,8 +17,10 @@ from workbench.proof.places import STATEMENT, place_of, subject_of, whole_of
 from workbench.proof.verdict import FAILED
 from workbench.report.certificate_latex import assignments_latex
 from workbench.report.formulas import formula, in_html
+from workbench.report.letters import letters_from
 from workbench.report.note_links import anchors_beside, linked
 from workbench.report.number_style import alike, upright
+from workbench.report.typography import set_words
 from workbench.report.worded import worded
 
 # The order in which a reader wants to see them, with a sign for who cannot tell the colours.
@@ -30,6 +33,8 @@ FACTS = (("Stated", "stated"), ("Computed", "computed"), ("Read as", "reading"),
          ("Mends", "mends"), ("Scope", "scope"))
 ORIGINS = {"printed": "a line of the paper", "implied": "a step the paper takes without words",
            "ours": "a question of ours"}
+
+_SECTION = re.compile(r"\d+(?:\.\d+)*")
 
 
 @dataclass(frozen=True)
@@ -101,11 +106,14 @@ def fated(claims: Sequence[ClaimView]) -> list[ClaimView]:
 
 
 def by_section(claims: Sequence[ClaimView]) -> list[tuple[str, list[ClaimView]]]:
-    """The claims of each section, in their order; one group where no section is known."""
+    """The claims of each section, by the sections' numbers, as they come where these are none; what has no section
+    after them; one group where no section is known."""
     groups: dict[str, list[ClaimView]] = {}
     for claim in claims:
         groups.setdefault(claim.section, []).append(claim)
-    return list(groups.items())
+    numbered = all(_SECTION.fullmatch(section) for section in groups if section)
+    return sorted(groups.items(), key=lambda group: (not group[0], [
+        int(part) for part in group[0].split(".")] if numbered and group[0] else []))
 
 
 def counts(claims: Sequence[ClaimView]) -> dict[str, int]:
@@ -124,6 +132,11 @@ def _view(entry: Mapping[str, Any], verdicts: Mapping[str, str]) -> ClaimView:
     correction, beside = _text(entry.get("correction")), certificate_beside(entry)
     if beside:
         shown.append(("Certificate", Markup('<a href="{}"><code>{}</code></a>').format(quote(beside), beside)))
+    own = letters_from(entry.get("letters"))
+    goal = own.in_formula(upright(_text(entry.get("goal")))) if entry.get("match") != "parsed" else ""
+    point = list(map(own.in_formula, _assigned(entry.get("counterexample"))))
+    if (told := own.legend([goal, *point])):
+        shown.append(("Letters", in_html(told)))
     origin, severity = _text(entry.get("origin")), _text(entry.get("severity"))
     if origin:
         shown.insert(0, ("Stands as", escape(", ".join(filter(None, (ORIGINS.get(origin, origin), severity))))))
@@ -140,14 +153,14 @@ def _view(entry: Mapping[str, Any], verdicts: Mapping[str, str]) -> ClaimView:
         equation=_text(entry.get("equation")), section=_text(entry.get("section")), origin=origin, severity=severity,
         kind=_text(entry.get("kind")),
         statement=formula(_text(entry.get("statement"))),
-        decided=formula(upright(_text(entry.get("goal")))) if entry.get("match") != "parsed" else Markup(""),
+        decided=formula(goal),
         correction=formula(alike(upright(correction)) if verdict == "violated" else correction),
         correction_label=CORRECTIONS.get(verdict, "Correction"),
         verdict=verdict, sign=VERDICTS.get(verdict, "?"), recorded=recorded if recorded != verdict else "",
         method=_text(entry.get("method")), trust=TRUST.get(trust, trust), note=in_words(_text(entry.get("note"))),
         tainted_by=refs["tainted_by"], proved_under=refs["proved_under"], premises=refs["premises"],
         rests_on=refs["rests_on"],
-        counterexample=_lines(entry.get("counterexample")),
+        counterexample=tuple(map(formula, point)) or _as_typed(entry.get("counterexample")),
         facts=tuple((label, text) for label, text in shown if text), open=verdict in NOT_AS_PRINTED,
         ours=origin == "ours", fate=_text(entry.get("fate")),
         fate_why=in_words(_text(entry.get("fate_why"))), place=place.replace(STATEMENT, ""),
@@ -178,16 +191,20 @@ def _list(value: object) -> list[Any]:
 
 def in_words(text: str, letters: bool = True) -> Markup:
     """A text with its letters, such as z_1 or rho_hat, as formulas."""
-    return in_html(worded(text)) if letters else escape(text)
+    return in_html(worded(text)) if letters else set_words(text)
 
 
-def _lines(value: object) -> tuple[Markup, ...]:
-    """A counterexample as lines `name = value`, whatever its shape."""
-    if isinstance(value, Mapping):
-        values = {_text(name): _text(entry) for name, entry in value.items()}
-        try:
-            return tuple(map(formula, assignments_latex(values)))
-        except CertificateError:
-            return tuple(Markup("<code>{} = {}</code>").format(*pair) for pair in values.items())
-    return tuple(Markup("<code>{}</code>").format(_text(entry)) for entry in _list(value))
+def _assigned(value: object) -> list[str]:
+    """A counterexample as LaTeX, `name = value` each; empty where its values are none of a certificate's."""
+    try:
+        return assignments_latex({_text(name): _text(entry) for name, entry in value.items()}) if isinstance(
+            value, Mapping) else []
+    except CertificateError:
+        return []
 
+
+def _as_typed(value: object) -> tuple[Markup, ...]:
+    """A counterexample of another shape, line by line."""
+    lines = [f"{_text(name)} = {_text(entry)}" for name, entry in value.items()] if isinstance(
+        value, Mapping) else map(_text, _list(value))
+    return tuple(map(Markup("<code>{}</code>").format, lines))

@@ -14,12 +14,12 @@ from typing import Any
 from workbench.files.cache_folder import cache_folder, drop, keep
 from workbench.files.regular import contents, sha256_of
 from workbench.files.writing import as_bytes
-from workbench.proof import checker
+from workbench.proof import checker, names
 from workbench.proof.latex import letters
 from workbench.report import certificate_latex, counterexample, number_style
 from workbench.report.counterexample import Counterexample, counterexample_of
 
-READERS = (checker, letters, certificate_latex, number_style, counterexample)
+READERS = (checker, names, letters, certificate_latex, number_style, counterexample)
 READERS_KEPT = 4
 
 

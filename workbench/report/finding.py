@@ -13,6 +13,7 @@ from workbench.proof.premises import holds_in_other_reading
 from workbench.proof.verdict import FAILED, Decision, FateWord, Origin, Verdict
 from workbench.report.counterexample import Counterexample
 from workbench.report.counterexample_cache import cached_counterexample
+from workbench.report.letters import letters_of
 from workbench.report.number_style import alike, upright
 
 # What a finding is, the gravest first: a headline statement that falls, that stands only with corrections, that stays
@@ -104,13 +105,19 @@ def _finding(d: Decision, by_id: dict[str, Decision], mended: Decision | None,
         _gravity(d, bool(resting), holds), d.verdict, d.claim.origin, d.claim.reading, d.claim.printed,
         _correction(d, mended), mended.claim.equation if mended else None,
         _equations(mended.proved_under) if mended and not d.correction else (),
-        cached_counterexample(d.certificate) if d.certificate else None, headlines, lines,
+        _counterexample(d), headlines, lines,
         _equations(d.tainted_by), _equations(name for name in d.tainted_by if not by_id[name].tainted_by),
         _equations(name for name in d.tainted_by if holds_in_other_reading(by_id[name], by_id)),
         d.fate.word if d.fate else None,
         _equations(fate_by),
         d.other_reading or "", holds, d.claim.note, goal_digest(d.certificate) if d.certificate else None,
         {claim.equation: claim.title for claim in others})
+
+
+def _counterexample(d: Decision) -> Counterexample | None:
+    """What breaks a line, in the paper's letters."""
+    found = cached_counterexample(d.certificate) if d.certificate else None
+    return None if found is None else letters_of(d).in_counterexample(found)
 
 
 def _equations(names: Iterable[str]) -> tuple[str, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from markupsafe import Markup
@@ -17,6 +17,7 @@ from workbench.report.note_links import anchors_beside, linked
 # Sentences whose formulas stand on lines of their own.
 TOLD_APART = (f"{PRINTED}:", f"{IMPLIED}:", "It should read", "Mended, it is proved:", "Beside it is proved:")
 FOLDED = ("cosmetic", "reading")  # gravities that are told of when asked for
+FATED = ("falls", "corrected", "open")  # gravities of headline statements, told with what becomes of these
 
 
 @dataclass(frozen=True)
@@ -47,14 +48,38 @@ class FindingGroup:
 
 
 def finding_groups(document: Mapping[str, Any]) -> list[FindingGroup]:
-    """The findings of a document by gravity, in its order."""
+    """The findings of a document by gravity, in its order; without those on claims whose fate it tells."""
     groups: dict[str, list[Mapping[str, Any]]] = {}
-    for entry in document.get("findings") or ():
-        if isinstance(entry, Mapping):
+    claims = _claims(document)
+    for entry in _entries(document):
+        if not _is_fated(entry, claims):
             groups.setdefault(str(entry.get("gravity")), []).append(entry)
-    claims = {str(claim.get("id")): claim for claim in document.get("claims") or () if isinstance(claim, Mapping)}
     return [FindingGroup(str(entries[0].get("heading", gravity)), gravity in FOLDED,
                          tuple(_view(entry, claims) for entry in entries)) for gravity, entries in groups.items()]
+
+
+def fated_findings(document: Mapping[str, Any]) -> dict[str, FindingView]:
+    """The findings on claims whose fate a document tells, by the anchor of the claim; one that only says again why the
+    fate is so has no sentence."""
+    claims, found = _claims(document), {}
+    for entry in _entries(document):
+        if _is_fated(entry, claims):
+            view = _view(entry, claims)
+            found[view.anchor] = replace(view, sentence=Markup("")) if view.verdict == "proved" else view
+    return found
+
+
+def _entries(document: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+    return [entry for entry in document.get("findings") or () if isinstance(entry, Mapping)]
+
+
+def _claims(document: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
+    return {str(claim.get("id")): claim for claim in document.get("claims") or () if isinstance(claim, Mapping)}
+
+
+def _is_fated(entry: Mapping[str, Any], claims: Mapping[str, Mapping[str, Any]]) -> bool:
+    return entry.get("gravity") in FATED and bool(claims.get(f"{entry.get('paper')}:{entry.get('equation')}", {}).get(
+        "fate"))
 
 
 def _view(entry: Mapping[str, Any], claims: Mapping[str, Mapping[str, Any]]) -> FindingView:

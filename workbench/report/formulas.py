@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 
 from markupsafe import Markup, escape
 
+from workbench.report.typography import set_words
 from workbench.report.worded import show, worded
 
 # What a formula may consist of: a claim file is a stranger's, and \href, \style and \text can carry anything.
@@ -51,7 +52,7 @@ def formula(latex: str) -> Markup:
 def in_html(text: str) -> Markup:
     """A text whose formulas stand between dollar signs as HTML; no line breaks between a formula and the punctuation
     behind it."""
-    found = show(text, formula, lambda words: str(escape(words)))
+    found = show(text, formula, lambda words: str(set_words(words)))
     return Markup(_BEFORE_MARK.sub(r'<span class="unbroken">\1</span>', found))
 
 

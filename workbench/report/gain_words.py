@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import re
 
+from workbench.files.units import KWH_J
+from workbench.paper.cells import Column
+
 KINDS = {"rms": "RMS of", "max": "largest"}
 UNITS = {"m": "m", "mps": "m/s", "mps2": "m/s²", "mps3": "m/s³", "n": "N", "N": "N", "J": "J", "s": "s"}
 # What a key says only to who knows the program: words, and the unit.
-KNOWN = {
+KNOWN: dict[str, tuple[str, str]] = {
     "trials_worse": ("number of trials with a larger error than the one before", ""),
     "bound_used": ("share of the bound that is used", ""), "reversals": ("changes of the command's sign", ""),
     "position_rms": ("RMS of the position error", "m"), "speed_rms": ("RMS of the speed error", "m/s"),
-    "settled_position_rms": ("RMS of the settled position error", "m"), "energy_J": ("energy", "J"),
+    "settled_position_rms": ("RMS of the settled position error", "m"), "energy_J": ("energy", "kWh"),
     "largest_position_error": ("largest position error", "m"), "stopping_error": ("stopping error", "m"),
     "speed_error_min": ("lowest speed error", "m/s"), "speed_error_max": ("highest speed error", "m/s"),
     "jerk_rms": ("RMS of the jerk", "m/s³"), "command_max": ("largest command", "m/s²")}
@@ -39,10 +42,10 @@ def spoken(key: str) -> str:
     return f"{kind} {('_' if said and len(said[0]) == 1 else ' ').join(said)}".strip()
 
 
-def heading(key: str) -> str:
-    """A number's key in words, with its unit where the key says one."""
+def column(key: str) -> Column:
+    """The column of a number that has this key, in SI, with its unit where the key says one; energies in kWh."""
     unit = KNOWN[key][1] if key in KNOWN else next((UNITS[part] for part in key.split("_")[1:] if part in UNITS), "")
-    return f"{spoken(key)} ({unit})" if unit else spoken(key)
+    return Column(spoken(key), "kWh", KWH_J) if unit in ("J", "kWh") else Column(spoken(key), unit)
 
 
 def with_powers(text: str) -> str:

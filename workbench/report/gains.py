@@ -12,7 +12,7 @@ from workbench.paper.gain_effects import Effect
 from workbench.paper.only_full import shortened
 from workbench.paper.recorded_front import GainFront
 from workbench.paper.results import ResultTable, StudyResult
-from workbench.report.gain_words import heading, letter, spoken, with_powers
+from workbench.report.gain_words import column, letter, spoken, with_powers
 
 if TYPE_CHECKING:
     from workbench.report.document_format import GainsDocument
@@ -78,7 +78,7 @@ def _front(front: GainFront) -> ResultTable:
                  for p in front.points)
     return ResultTable(
         f"cost against what is proved: {front.title}", "runs, and certificates checked again", (
-            "gains", "cost", *map(heading, names), f"proved ({front.unit})",
+            "gains", "cost", *map(column, names), f"proved ({front.unit})",
             f"none below ({front.unit})"), rows,
         f"Proved: {front.bounded}, of the linearised sampled loop over a box of speeds and masses; none below: where a "
         f"bound cannot be, by frequency responses at the hull's vertices. Of {front.evaluations} evaluations.")
@@ -141,8 +141,8 @@ def _effects(effects: Sequence[Effect], left_out: Mapping[str, int]) -> list[Res
         names = list(dict.fromkeys(name for e in own for name in e.numbers))
         rows = tuple((_name(e.gains), *(e.numbers.get(name) for name in names), "failed" if e.failed else "to the end")
                      for e in own)
-        tables.append(shortened(ResultTable(f"simulated: {setting}", "the paper's own, SI units", (
-            "gains", *map(heading, names), "run"), rows), left_out.get(setting, 0)))
+        tables.append(shortened(ResultTable(f"simulated: {setting}", "the paper's own runs", (
+            "gains", *map(column, names), "run"), rows), left_out.get(setting, 0)))
     return tables
 
 

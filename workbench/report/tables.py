@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from workbench.files.numbers import NOTHING, fixed, grouped, number
+from workbench.files.units import KWH_J
 from workbench.report.sources import stated
 from workbench.simulate.closed_loop import Run
 from workbench.simulate.controllers import COMPILED, SAMPLED, compiled_law
@@ -85,7 +86,7 @@ METRICS: tuple[tuple[str, str, str, _Write, bool], ...] = (
     ("position_rms", "Position error, RMS", "mm", _significant(1e3), True),
     ("speed_rms", "Speed error, RMS", "mm/s", _significant(1e3), True),
     ("stopping_error", "Stopping error", "mm", _significant(1e3), True),
-    ("energy_J", "Traction energy at the wheel", "MJ", lambda v: fixed(v / 1e6, 2), True),
+    ("energy_J", "Traction energy at the wheel", "kWh", lambda v: fixed(v / KWH_J, 1), True),
     ("jerk_rms", "Jerk over plant steps, RMS", "m/s³", _significant(), True),
     ("jerk_p95", "Jerk over plant steps, 95th percentile", "m/s³", _significant(), True),
     ("jerk_max", "Jerk over plant steps, largest", "m/s³", _significant(), True),

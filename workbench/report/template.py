@@ -21,7 +21,7 @@ from workbench.files.regular import contents
 from workbench.report.charts.chart import Chart, chart_json
 from workbench.report.charts.files import CURVES
 from workbench.report.claims import ClaimView, by_section, claim_views, counts, fated, in_words
-from workbench.report.findings_view import finding_groups
+from workbench.report.findings_view import fated_findings, finding_groups
 from workbench.report.graph.view import graph_views
 from workbench.report.math_font import math_font
 from workbench.report.plain_formulas import plain_words
@@ -63,7 +63,7 @@ def render(template: str, document: Mapping[str, Any], sources: Sequence[Sourced
     printed = [claim for claim in claims if not claim.ours] or claims
     return environment.get_template(template).render(
         claims=claims, counts=counts(printed), findings=finding_groups(document), sections=by_section(claims),
-        fated=fated(claims), graphs=graph_views(claims),
+        fated=fated(claims), fated_findings=fated_findings(document), graphs=graph_views(claims),
         choices=[(name, label, found) for name, label in CHOICES if len(found := _values(claims, name)) > 1],
         sources={kind: [s for s in sources if s.kind == kind] for kind in ("assumed", "paper", "convention")},
         versions=_versions(), style=Markup(_style(folder)), scripts=[Markup(script) for script in scripts],

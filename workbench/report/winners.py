@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from workbench.files.numbers import NOTHING, length, number
+from workbench.files.units import KWH_J
 from workbench.proof.wording import listed
 from workbench.report.sources import stated
 from workbench.report.tables import information, largest_error
@@ -107,4 +108,4 @@ def _energy(m: Metrics, least: float) -> str:
     if m.failed is not None:
         return NOTHING
     more = m.energy_J / least - 1.0 if least > 0 else 0.0
-    return f"{number(m.energy_J / 1e6, DIGITS + 1)} MJ" + (f" (+{number(100 * more, 2)} %)" if more > 1e-4 else "")
+    return f"{number(m.energy_J / KWH_J, DIGITS + 1)} kWh" + (f" (+{number(100 * more, 2)} %)" if more > 1e-4 else "")

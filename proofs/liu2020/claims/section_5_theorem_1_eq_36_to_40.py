@@ -130,8 +130,8 @@ worst = columns[-1]
              at=dict(zip((k_1, k_2, k_3), worst, strict=True)),
              repair={k_1: worst[0], k_2: 1 + worst[0] * worst[2], k_3: worst[2]}, rests_on=(),
              note="No column meets it; decided for Value 10. Left sides of Values 1 to 10: "
-                  f"{', '.join(f'{float(left):.4g}' for left in crossing)}. The cross term of (39) stays, and for "
-                  f"{'Values ' + ', '.join(undamped) if undamped else 'no value'} the squares do not outweigh it. The "
+                  f"{', '.join(f'{float(left):.{max(4, len(str(int(left))))}g}' for left in crossing)}. The cross term of "
+                  f"(39) stays, and for {'Values ' + ', '.join(undamped) if undamped else 'no value'} the squares do not outweigh it. The "
                   "repair takes k_2 = 1 + k_1 k_3; see 40.needless for a proof that keeps the stated gains.")
 def cross_term_vanishes() -> Goal:
     """The left side of (40) at the gains of Value 10."""

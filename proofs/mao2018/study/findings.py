@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 
+from workbench.files.numbers import number
 from workbench.paper.cells import cell_text
 from workbench.paper.findings import listed
 
@@ -117,10 +118,10 @@ def _chattering(tuning: str, results: MaoResults) -> Iterator[str]:
         return
     run = max(runs, key=lambda run: run.row["command_change_mps2"])
     yield (f"Chattering: with sgn(z_2) as printed the command of case {run.case.number} changes by "
-           f"{run.row['command_change_mps2']:.1e} m/s² from sample to sample in the mean and turns "
+           f"{number(run.row['command_change_mps2'], 2)} m/s² from sample to sample in the mean and turns "
            f"{run.row['command_reversals_per_s']:.0f} times a second, settling to {length(run.settled_m)}.")
     for other in results.changing("law.layer_mps", number=run.case.number).values():
-        yield (f"With a boundary layer it changes by {other.row['command_change_mps2']:.1e} m/s², settling to "
+        yield (f"With a boundary layer it changes by {number(other.row['command_change_mps2'], 2)} m/s², settling to "
                f"{length(other.settled_m)}.")
 
 

@@ -27,6 +27,7 @@ from workbench.proof.derive import expand_derivatives
 from workbench.proof.fate import judged
 from workbench.proof.latex.goal import goal_latex
 from workbench.proof.latex.match import match_claim
+from workbench.proof.names import in_key_order, names_in
 from workbench.proof.premises import premises_problem
 from workbench.proof.text import goal_text, relation_text
 from workbench.proof.typed import as_typed
@@ -47,11 +48,14 @@ def decide(claim: Claim) -> Decision:
 
 
 def with_match(claim: Claim, decision: Decision) -> Decision:
-    """The decision with the goal as a reader sees it, and whether a machine finds it in the printed line."""
+    """The decision with the goal as a reader sees it, what its letters stand for, and whether a machine finds it in the
+    printed line."""
     if claim.build is None:
         return decision
     goal = built(claim, claim.build)
-    return replace(decision, match="parsed" if match_claim(claim, goal).parsed else None, goal=goal_latex(goal))
+    named = names_in(decision.certificate)
+    return replace(decision, match="parsed" if match_claim(claim, goal).parsed else None, goal=goal_latex(goal),
+                   letters={name: text for name, text in claim.letters.items() if {name, f"{name}_dot"} & named})
 
 
 def _decide_statement(claim: Claim, goal: Goal) -> Decision:
@@ -104,6 +108,7 @@ def verdict_of_failure(claim: Claim) -> Verdict:
 
 def shown_by(claim: Claim, goal: Goal, certificate: Certificate) -> Decision:
     """The decision on a claim that a certificate of it shows, which the checker has accepted."""
+    certificate = in_key_order(certificate)  # a found one is told in the same order as one that was kept
     verdict: Verdict = certificate["verdict"]
     at_values = "exact evaluation at the stated values"
     if verdict == "proved":

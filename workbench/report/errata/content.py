@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from workbench.proof.verdict import FAILED, VERDICTS, Decision, Fate, FateWord
 from workbench.proof.wording import listed
 from workbench.report.errata.blocks import Block, Code, Heading, Item, Items, Paragraph
-from workbench.report.errata.corrections import correction_numbers, corrections_of
+from workbench.report.errata.context import Context, context_of
+from workbench.report.errata.corrections import evidence
+from workbench.report.errata.in_short import falls_by, in_short
 from workbench.report.errata.mended import CHECKER, mended_statements
-from workbench.report.finding import findings
+from workbench.report.finding import Finding, findings
 from workbench.report.finding_sentences import PRINTED, fate_sentence
 from workbench.report.worded import worded
 
@@ -24,17 +26,18 @@ re-checks with Python's standard library alone. Numbers in brackets are those of
 say which part of a line is meant."""
 
 
-def errata(decisions: Sequence[Decision], citation: str, letters: Mapping[str, str] | None = None,
-           at_hand: bool = True) -> list[Block]:
-    """The errata of one paper: fates, numbered corrections, open readings, mended statements with their proofs, and
-    how to re-check all of it. All claims of the paper must be among the decisions, as `judged` leaves them; letters:
-    what letters that are not the paper's stand for, by their names; at_hand: whether the lines stand as the paper's own
-    text has them."""
+def errata(decisions: Sequence[Decision], citation: str, at_hand: bool = True) -> list[Block]:
+    """The errata of one paper: fates, causes, what falls with them, the evidence of each numbered correction, open
+    readings, mended statements with their proofs, and how to re-check all of it.
+
+    All claims of the paper must be among the decisions, as `judged` leaves them; at_hand: whether the lines stand as
+    the paper's own text has them.
+    """
     found = findings(decisions)
     titles = {d.claim.equation: d.claim.title for d in decisions}
-    blocks = [*_fates(decisions, correction_numbers(found)),
-              *corrections_of(found, decisions, letters or {}, PRINTED if at_hand else COMMON),
-              *mended_statements(decisions, titles, letters or {})]
+    context = context_of(found, decisions, PRINTED if at_hand else COMMON)
+    blocks = [*_fates(decisions, found, context), *in_short(found, context), *evidence(found, context),
+              *mended_statements(decisions, titles)]
     failing = any(f.verdict in FAILED for f in found)
     return [Heading(1, "Corrections" if failing else "Corrections: none"), Paragraph(citation, "Paper"),
             Paragraph(ABOUT if at_hand else f"{ABOUT} {NOT_AT_HAND}"),
@@ -73,21 +76,26 @@ def _verb(verdict: str, count: int) -> str:
     return f"{verb} {what}" if verdict == "gap" else f"{verb} {verdict}"
 
 
-def _fates(decisions: Sequence[Decision], numbers: Mapping[str, int]) -> list[Block]:
-    """Those that fall first, after how many there are of each; numbers: of the corrections, by equation."""
+def _fates(decisions: Sequence[Decision], found: Sequence[Finding], context: Context) -> list[Block]:
+    """Those that fall first, after how many there are of each, with their corrections and what these fall by."""
+    told_of = {f.equation: f for f in found}
     fated = [(d.fate, d.claim) for d in decisions if d.fate is not None]
     told = sorted(fated, key=lambda pair: GRAVEST_FIRST.index(pair[0].word))
     counts = Counter(fate.word for fate, _ in told)
     words = listed([f"{counts[word]} {_verb_of(word, counts[word])}" for word in GRAVEST_FIRST if counts[word]])
     lines = tuple(Item(worded(fate_sentence(claim.equation, fate.word, fate.why, claim.title))
-                       + _see(numbers.get(claim.equation), fate)) for fate, claim in told)
+                       + _see(told_of.get(claim.equation), fate, context)) for fate, claim in told)
     summary = [Paragraph(f"Of {len(told)} headline statements, {words}.")] if len(told) > 1 else []
     return [Heading(2, "What becomes of the headline statements"), *summary, Items(lines)] if lines else []
 
 
-def _see(number: int | None, fate: Fate) -> str:
+def _see(found: Finding | None, fate: Fate, context: Context) -> str:
     """Where more is said of a statement; what was only not checked has no correction."""
-    return "" if number is None or fate.word == "open" else f" See correction {number}."
+    number = None if found is None else context.numbers.get(found.equation)
+    if found is None or number is None or fate.word == "open":
+        return ""
+    by = falls_by(found, context) if context.causes else ""
+    return f" See correction {number}{f'; it falls {by}' if by else ''}."
 
 
 def _verb_of(word: FateWord, count: int) -> str:

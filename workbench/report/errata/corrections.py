@@ -1,112 +1,83 @@
-"""The numbered corrections, the gravest first, and the readings that the extracted text leaves open."""
+"""The evidence of the numbered corrections, and the readings that the extracted text leaves open."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 
-from workbench.proof.places import section_of_place, subject_of, whole_of
-from workbench.proof.verdict import Decision
 from workbench.report.counterexample import Counterexample
 from workbench.report.errata.blocks import Block, Code, Formula, Heading, Paragraph
-from workbench.report.errata.chain import consequence, resting_lines
+from workbench.report.errata.chain import consequence
 from workbench.report.errata.conditions import LONGEST, listed_conditions
-from workbench.report.errata.letters import Letters, letters_of
+from workbench.report.errata.context import Context, corrected, heading_of, labelled, line_of
+from workbench.report.errata.letters import legend
 from workbench.report.errata.mended import CHECKER
 from workbench.report.errata.names import noted
-from workbench.report.finding import GRAVITIES, Finding
-from workbench.report.finding_sentences import (
-    HEADINGS,
-    IMPLIED,
-    condition_sentence,
-    reading_sentence,
-    verdict_sentence,
-)
+from workbench.report.finding import GRAVITIES, Finding, Gravity
+from workbench.report.finding_sentences import HEADINGS, reading_sentence, verdict_sentence
 from workbench.report.worded import worded
 
 READINGS = ("The text of the paper was extracted by a machine, which may lose a sign, a power or an index. These lines "
             "fail as extracted and hold in another reading; the printed page decides which it is.")
 
 
-@dataclass(frozen=True)
-class _Paper:
-    """What all corrections of a paper are told with, by equation: what its lines say, and say in their other readings,
-    the letters of their goals, what rests on them, their numbers; what stands in front of a line that the paper prints,
-    and in which correction a counterexample, or what is assumed at one, is written out."""
-
-    titles: Mapping[str, str]
-    readings: Mapping[str, str]
-    letters: Mapping[str, Letters]
-    resting: Mapping[str, Sequence[str]]
-    numbers: Mapping[str, int]
-    printed: str
-    told: dict[object, int] = field(default_factory=dict)
-
-
-def correction_numbers(found: Sequence[Finding]) -> dict[str, int]:
-    """The number of each correction, by the equation of its line; readings have none."""
-    told = [f for gravity in GRAVITIES[:-1] for f in found if f.gravity == gravity]
-    return {f.equation: number for number, f in enumerate(told, 1)}
-
-
-def corrections_of(found: Sequence[Finding], decisions: Sequence[Decision],
-                   letters: Mapping[str, str], printed: str) -> list[Block]:
-    """All corrections below the headings of their kinds, then the open readings; letters: what letters that are not the
-    paper's stand for, by their names; printed: what stands in front of a line that is not only implied."""
-    titles = {d.claim.id: d.claim.title for d in decisions}
-    paper = _Paper({d.claim.equation: d.claim.title for d in decisions},
-                   {d.claim.equation: titles.get(d.claim.glyph or "", "") for d in decisions},
-                   {d.claim.equation: letters_of(d.certificate, letters) for d in decisions},
-                   resting_lines(decisions), correction_numbers(found), printed)
-    blocks: list[Block] = []
+def evidence(found: Sequence[Finding], context: Context) -> list[Block]:
+    """All corrections in the order of their numbers, below the headings of their kinds, then the open readings. Of a
+    cause that is told in full before, only what shows it."""
+    causes = [f for cause in context.causes for f in cause]
+    leading = [cause[0] for cause in context.causes]
+    blocks: list[Block] = [Heading(2, "Evidence: the causes")] if causes else []
+    for f in causes:
+        blocks += _evidence_alone(f, context) if f in leading else _correction(f, context)
     for gravity in GRAVITIES:
-        of_it = [f for f in found if f.gravity == gravity]
+        of_it = [f for f in found if f.gravity == gravity and f not in causes]
         if of_it:
-            blocks += [Heading(2, HEADINGS[gravity]), *([Paragraph(READINGS)] if gravity == "reading" else [])]
+            blocks += [Heading(2, _kind(gravity, bool(causes))),
+                       *([Paragraph(READINGS)] if gravity == "reading" else [])]
         for f in of_it:
-            blocks += _reading(f, paper) if gravity == "reading" else _correction(f, paper)
+            blocks += _reading(f, context) if gravity == "reading" else _correction(f, context)
     return blocks or [Paragraph("No line of the paper was found to fail.")]
 
 
-def _correction(found: Finding, paper: _Paper) -> list[Block]:
-    number = paper.numbers[found.equation]
-    blocks: list[Block] = [Heading(3, f"{number}. {_heading(found)}"),
-                           Formula(found.printed, paper.printed if found.origin == "printed" else IMPLIED)]
-    if found.should_read:
-        label = {"violated": "Holds with", "gap": "What does follow"}.get(found.verdict, "Should read")
-        blocks.append(Formula(found.should_read, label))
-    if found.mended_under:
-        blocks.append(Paragraph(condition_sentence(found), "Not shown"))
-    blocks += [*_labelled(("Read as", noted(found.reading, paper.titles))), *_found(found, paper)]
-    blocks += _labelled(
-        ("Other reading", reading_sentence(found)),
-        ("Consequence", consequence(found, paper.numbers, paper.resting.get(found.equation, ()), paper.titles)),
-        ("Note", noted(found.note, paper.titles)))
-    for shown in () if found.counterexample is None else (found.counterexample, _where(found.counterexample)):
-        paper.told.setdefault(shown, number)
+def _kind(gravity: Gravity, after_causes: bool) -> str:
+    words = HEADINGS[gravity]
+    return f"Evidence: {words[0].lower()}{words[1:]}" if after_causes and gravity != "reading" else words
+
+
+def _evidence_alone(found: Finding, context: Context) -> list[Block]:
+    """What shows a cause: its line and its correction stand before."""
+    blocks = [Heading(3, f"{context.numbers[found.equation]}. {heading_of(found)}"),
+              *labelled(("Read as", noted(found.reading, context.titles))), *_found(found, context, False),
+              *labelled(("Other reading", reading_sentence(found)))]
+    _remember(found, context)
     return [*blocks, *_command(found)]
 
 
-def _reading(found: Finding, paper: _Paper) -> list[Block]:
+def _correction(found: Finding, context: Context) -> list[Block]:
+    blocks = [Heading(3, f"{context.numbers[found.equation]}. {heading_of(found)}"), line_of(found, context),
+              *corrected(found), *labelled(("Read as", noted(found.reading, context.titles))),
+              *_found(found, context, True),
+              *labelled(("Other reading", reading_sentence(found)),
+                        ("Consequence", consequence(found, context.numbers, context.resting.get(found.equation, ()),
+                                                    context.titles)),
+                        ("Note", noted(found.note, context.titles)))]
+    _remember(found, context)
+    return [*blocks, *_command(found)]
+
+
+def _remember(found: Finding, context: Context) -> None:
+    """Where a counterexample, and what is assumed at it, is written out."""
+    for shown in () if found.counterexample is None else (found.counterexample, _where(found.counterexample)):
+        context.told.setdefault(shown, context.numbers[found.equation])
+
+
+def _reading(found: Finding, context: Context) -> list[Block]:
     """A line that fails as it was extracted and holds in another reading."""
     other: Block = Formula(found.other_reading, "Holds when it is read as")
     if found.other_reading == found.printed:  # it is another line that is read otherwise
-        other = Paragraph(f"It holds with another line read otherwise: “{worded(paper.readings[found.equation])}”.",
+        other = Paragraph(f"It holds with another line read otherwise: “{worded(context.readings[found.equation])}”.",
                           "Other reading")
-    return [Heading(3, _heading(found)), Formula(found.printed, "As extracted"), other, *_found(found, paper),
-            *_labelled(("Note", noted(found.note, paper.titles))), *_command(found)]
-
-
-def _heading(found: Finding) -> str:
-    """Where a line stands and what it says."""
-    section = section_of_place(found.equation, found.section)
-    where = f" ({section})" if section else ""
-    whole, title = whole_of(found.equation, found.title), subject_of(found.title)
-    return f"{whole}{where}" + (f": {worded(title)}" if title != whole else "")
-
-
-def _labelled(*texts: tuple[str, str]) -> list[Block]:
-    return [Paragraph(text, label) for label, text in texts if text]
+    return [Heading(3, heading_of(found)), Formula(found.printed, "As extracted"), other, *_found(found, context, True),
+            *labelled(("Note", noted(found.note, context.titles))), *_command(found)]
 
 
 def _command(found: Finding) -> list[Block]:
@@ -114,18 +85,18 @@ def _command(found: Finding) -> list[Block]:
         Code(f"python {CHECKER} certificates/{found.equation}.json --claim-digest {found.digest}")]
 
 
-def _found(found: Finding, paper: _Paper) -> list[Block]:
-    """What is wrong, what letters are, and the counterexample, unless a correction above has written it out."""
-    own = paper.letters[found.equation]
-    finding = Paragraph(verdict_sentence(found), "Finding")
+def _found(found: Finding, context: Context, told: bool) -> list[Block]:
+    """What is wrong, if that is to be told here, what letters are, and the counterexample, unless a correction above
+    has written it out."""
+    before = context.told.get(found.counterexample)
+    finding: list[Block] = [Paragraph(verdict_sentence(found), "Finding")] if told else []
     worked: list[Block] = []
-    if found.counterexample is not None and found.counterexample not in paper.told:
-        worked = _worked(found.counterexample, paper.told)
-    legend = own.legend([finding, *worked]) if worked else ""
-    blocks = [*own.in_blocks([finding]), *_labelled(("Letters", legend)), *own.in_blocks(worked)]
-    if found.counterexample in paper.told and found.counterexample is not None:
-        blocks.append(Paragraph(f"The counterexample is that of correction {paper.told[found.counterexample]}, where "
-                                "it is written out."))
+    if found.counterexample is not None and before is None:
+        worked = _worked(found.counterexample, context.told)
+    told_of = legend([*finding, *worked], context.letters[found.equation]) if worked else ""
+    blocks = [*finding, *labelled(("Letters", told_of)), *worked]
+    if found.counterexample is not None and before is not None:
+        blocks.append(Paragraph(f"The counterexample is that of correction {before}, where it is written out."))
     return blocks
 
 

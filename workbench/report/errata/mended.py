@@ -9,16 +9,16 @@ from workbench.proof.verdict import Decision
 from workbench.proof.wording import listed
 from workbench.report.errata.blocks import Block, Code, Formula, Heading, Items, Paragraph
 from workbench.report.errata.conditions import listed_conditions, motion
-from workbench.report.errata.letters import letters_of
+from workbench.report.errata.letters import in_blocks, legend
 from workbench.report.errata.names import name_of_line, noted
 from workbench.report.errata.proof_steps import HOW_TO_READ, proof_steps
+from workbench.report.letters import letters_of
 
 MOST_STEPS = 120  # lines of a proof beyond which a reader is sent to the certificate
 CHECKER = "checker.py"
 
 
-def mended_statements(decisions: Sequence[Decision], titles: Mapping[str, str],
-                      letters: Mapping[str, str]) -> list[Block]:
+def mended_statements(decisions: Sequence[Decision], titles: Mapping[str, str]) -> list[Block]:
     """Every headline statement that has a proved mended form, then each line that the proofs of these use."""
     by_id = {d.claim.id: d for d in decisions}
     headlines = {d.claim.id: d for d in decisions if d.fate is not None}
@@ -26,14 +26,14 @@ def mended_statements(decisions: Sequence[Decision], titles: Mapping[str, str],
     blocks: list[Block] = []
     for d in mended:
         blocks += [Heading(3, f"{name_of_line(headlines[str(d.claim.mends)])}, mended"),
-                   *_stated(d, by_id, titles), *_proof(d, letters)]
+                   *_stated(d, by_id, titles), *_proof(d)]
     found: list[Block] = [Heading(2, "The headline statements, mended and proved"), Paragraph(HOW_TO_READ),
                           *blocks] if blocks else []
     lemmas = _lemmas(mended, by_id)
     if lemmas:
         found.append(Heading(2, "The lines that these proofs use"))
     for d in lemmas:
-        found += [Heading(3, name_of_line(d)), *_stated(d, by_id, titles), *_proof(d, letters)]
+        found += [Heading(3, name_of_line(d)), *_stated(d, by_id, titles), *_proof(d)]
     return found
 
 
@@ -70,14 +70,14 @@ def _verdict(d: Decision) -> str:
     return f"{d.verdict} where lines hold that are not shown" if d.proved_under else d.verdict
 
 
-def _proof(d: Decision, letters: Mapping[str, str]) -> list[Block]:
+def _proof(d: Decision) -> list[Block]:
     """What letters are, what is given, the steps, and how to re-check them."""
     certificate = d.certificate or {}
-    own, proof = letters_of(certificate, letters), proof_steps(certificate)
+    own, proof = letters_of(d), proof_steps(certificate)
     given = {"Given": [*proof.signs, *proof.given], "At all times": proof.always}
     blocks: list[Block] = [*listed_conditions(given | motion(certificate["goal"])), Items(proof.lines[:MOST_STEPS])]
     if len(proof.lines) > MOST_STEPS:
         blocks.append(Paragraph(f"{len(proof.lines) - MOST_STEPS} more steps stand in the certificate."))
-    told = own.legend(blocks)
-    return [*([Paragraph(told, "Letters")] if told else []), *own.in_blocks(blocks),
+    told = legend(blocks, own)
+    return [*([Paragraph(told, "Letters")] if told else []), *in_blocks(blocks, own),
             Code(f"python {CHECKER} certificates/{d.claim.equation}.json --claim-digest {goal_digest(certificate)}")]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 from workbench.files.writing import make_folder, write_bytes, write_text
@@ -22,9 +22,9 @@ NO_PDF = "errata.pdf is not written, because Typst is not installed: pip install
 
 
 def errata_texts(decisions: Sequence[Decision], citation: str,
-                 letters: Mapping[str, str] | None = None, at_hand: bool = True) -> dict[str, str]:
-    """The text of every file but the PDF, by its name; letters, at_hand: as `errata` takes them."""
-    blocks = errata(decisions, citation, letters, at_hand)
+                 at_hand: bool = True) -> dict[str, str]:
+    """The text of every file but the PDF, by its name; at_hand: as `errata` takes it."""
+    blocks = errata(decisions, citation, at_hand)
     document = {"version": 1, **findings_document(findings(decisions))}
     title = f"Corrections: {citation}"
     return {"errata.md": markdown(blocks), "errata.tex": latex_document(blocks),
@@ -33,18 +33,18 @@ def errata_texts(decisions: Sequence[Decision], citation: str,
 
 
 def write_errata(decisions: Sequence[Decision], citation: str, out: Path,
-                 letters: Mapping[str, str] | None = None, at_hand: bool = True) -> tuple[list[Path], str | None]:
-    """Write the errata of a paper into a folder; the files, and what could not be written in one line. letters,
-    at_hand: as `errata` takes them.
+                 at_hand: bool = True) -> tuple[list[Path], str | None]:
+    """Write the errata of a paper into a folder; the files, and what could not be written in one line. at_hand: as
+    `errata` takes it.
 
     Raises InputError where the folder cannot be written.
     """
     make_folder(out, out, ANOTHER_FOLDER)
     written = []
-    for name, text in errata_texts(decisions, citation, letters, at_hand).items():
+    for name, text in errata_texts(decisions, citation, at_hand).items():
         write_text(out / name, text, ANOTHER_FOLDER)
         written.append(out / name)
-    pdf = pdf_of(errata(decisions, citation, letters, at_hand))
+    pdf = pdf_of(errata(decisions, citation, at_hand))
     if pdf is None:
         return written, NO_PDF
     write_bytes(out / "errata.pdf", pdf, ANOTHER_FOLDER)

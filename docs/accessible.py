@@ -1,0 +1,45 @@
+"""What readers without a mouse or a screen need of the pages: names of what scrolls, levels of headings."""
+
+from __future__ import annotations
+
+import html
+import re
+
+# Sphinx marks captions of lists of pages as headings without a level.
+_CAPTION = re.compile(r'(<p class="caption" role="heading")>')
+_SCROLLS = re.compile(r'<div class="(?:table-wrapper|math-wrapper|math)(?: [^"]*)?"(?=>)')
+_OUTPUT = re.compile(r"<pre(?=>)")
+_HEADING = re.compile(r"<h[1-6][^>]*>(.*?)<a class=\"headerlink\"|<h[1-6][^>]*>(.*?)</h[1-6]>", re.DOTALL)
+_TAG = re.compile(r"<[^>]*>")
+# The theme's two asides, which need names to be told apart.
+ASIDES = {'<aside class="sidebar-drawer"': "All pages", '<aside class="toc-drawer': "On this page"}
+KINDS = {"table-wrapper": "Table", "math-wrapper": "Formula", "math": "Formula"}
+
+
+def accessible_tree(tree: str) -> str:
+    """A list of pages whose captions are headings of a level."""
+    return _CAPTION.sub(r'\1 aria-level="2">', tree)
+
+
+def with_names_of_asides(page: str) -> str:
+    """A whole page whose asides are named."""
+    for aside, name in ASIDES.items():
+        page = page.replace(aside, aside.replace("<aside", f'<aside aria-label="{name}"'))
+    return page
+
+
+def accessible(body: str) -> str:
+    """A page's body in which what scrolls sideways is reached by the tabulator key; tables and formulas are regions,
+    named by what they are, their number on the page and the heading above them."""
+    headings = [(found.start(), html.unescape(_TAG.sub("", found[1] or found[2])).strip())
+                for found in _HEADING.finditer(body)]
+    counted: dict[str, int] = {}
+
+    def named(found: re.Match[str]) -> str:
+        kind = KINDS[found[0].split('"')[1].split()[0]]
+        counted[kind] = counted.get(kind, 0) + 1
+        above = next((text for start, text in reversed(headings) if start < found.start()), "")
+        label = f"{kind} {counted[kind]}{f': {above}' if above else ''}"
+        return f'{found[0]} tabindex="0" role="region" aria-label="{html.escape(label)}"'
+
+    return accessible_tree(_OUTPUT.sub('<pre tabindex="0"', _SCROLLS.sub(named, body)))

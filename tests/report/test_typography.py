@@ -1,0 +1,22 @@
+"""Words of a page are set as people print them."""
+
+import pytest
+
+from workbench.report.claims import in_words
+from workbench.report.typography import set_words
+
+
+@pytest.mark.parametrize(("typed", "printed"), [
+    ("from -3.8 to (-0.5)", "from −3.8 to (−0.5)"), ("u = -1, [-4.22, 4.66]", "u = −1, [−4.22, 4.66]"),
+    ("Figures 1-9 and 42(3) (2025) 642-648", "Figures 1–9 and 42(3) (2025) 642–648"),
+    ("the law (35)-(37)", "the law (35)–(37)"),
+    # Names, dates and differences are as they are.
+    ("ISO 2631-1, EN 14033-1:2017, 2026-11-28, x-1, mpc-2", "ISO 2631-1, EN 14033-1:2017, 2026-11-28, x-1, mpc-2"),
+    ("first-order, offset-free", "first-order, offset-free"), ("a < b & c", "a &lt; b &amp; c"),
+    ("all with --full.", 'all with <span class="unbroken">--full</span>.')])
+def test_signs_dashes_and_options(typed, printed):
+    assert set_words(typed) == printed == in_words(typed, letters=False)
+
+
+def test_a_formula_keeps_its_own_signs():
+    assert "−" in in_words("at -2 it is $x_1 - 2$") and "<math" in in_words("at -2 it is $x_1 - 2$")

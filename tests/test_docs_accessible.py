@@ -1,0 +1,29 @@
+"""What of the documentation's pages scrolls can be reached and has a name."""
+
+import sys
+from pathlib import Path
+
+sys.path.append(str(Path(__file__).parent.parent / "docs"))
+
+from accessible import accessible, accessible_tree, with_names_of_asides
+
+BODY = """<h1>Files<a class="headerlink" href="#files">#</a></h1><pre>text</pre>
+<div class="table-wrapper colwidths-auto docutils container"><table></table></div>
+<h2>Keys &amp; <code>values</code></h2><div class="math"><math></math></div>
+<div class="table-wrapper docutils container"><table></table></div><div class="mathematics"></div>"""
+
+
+def test_what_scrolls_is_a_region_with_a_name_of_its_own():
+    made = accessible(BODY)
+    region = 'tabindex="0" role="region" aria-label='
+    assert f'container" {region}"Table 1: Files"><table>' in made and f'{region}"Table 2: Keys &amp; values"' in made
+    assert f'<div class="math" {region}"Formula 1: Keys &amp; values">' in made
+    assert '<pre tabindex="0">text' in made and made.count("region") == 3
+
+
+def test_captions_have_a_level_and_asides_a_name():
+    assert accessible_tree('<p class="caption" role="heading"><span>') == (
+        '<p class="caption" role="heading" aria-level="2"><span>')
+    page = with_names_of_asides('<aside class="sidebar-drawer"></aside><aside class="toc-drawer no-toc"></aside>')
+    assert page == ('<aside aria-label="All pages" class="sidebar-drawer"></aside>'
+                    '<aside aria-label="On this page" class="toc-drawer no-toc"></aside>')
