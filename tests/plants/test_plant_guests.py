@@ -32,6 +32,17 @@ def plain_pd(t, y, desired):
     return -4 * (y[0] - desired[0]) - 3 * y[1]
 
 
+def test_guests_are_told_of_a_step_at_the_sample_at_which_a_law_is():
+    """Three periods of 0.3 s are less than 0.9 s in floating point, by which the step came a whole period later."""
+    assert 3 * 0.3 < 0.9
+    setting = wb.Setting(MASS, 1.5, 0.01, references={"r": wb.Step(after=1.0, at_s=0.9)}, tracks={"x": "r"})
+    told = wb.compare(setting, [wb.entrant(one, 0.3) for one in (PD, casadi_pd(), control_pd(), plain_pd)])
+    law, *guests = (run["u_wanted"] for run in told)
+    for guest in guests:
+        np.testing.assert_allclose(guest, law, atol=1e-12)
+    assert np.flatnonzero(law)[0] == 90
+
+
 @pytest.fixture(scope="module")
 def compared():
     return wb.compare(SETTING, [wb.entrant(one, 0.01) for one in (PD, casadi_pd(), control_pd(), plain_pd)])
