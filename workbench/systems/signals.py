@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 # many pieces.
 POLYNOMIAL, STEP, SINE, SPLINE = 0.0, 1.0, 2.0, 3.0
 WIDTH = 7
-AT_ONCE = 1e-9  # s: a step so close ahead has come, for rounding alone keeps 3 * 0.3 below 0.9; compiled code says it too
+AT_ONCE = 1e-9  # s: a step so close ahead has come, as in compiled code: rounding alone keeps 3 * 0.3 below 0.9
 MOST_ROWS = 100_000
 
 
