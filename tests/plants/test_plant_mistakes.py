@@ -180,3 +180,13 @@ def test_a_metric_may_name_an_output() -> None:
 def test_an_entrant_is_a_law_or_builds_one() -> None:
     with pytest.raises(ValueError, match="no law and builds no controller"):
         wb.entrant(Path(), 0.1)
+
+
+def test_the_sampling_period_is_a_laws_alone() -> None:
+    """A plant that named it was told at its first run to make T_s a state."""
+    with pytest.raises(ValueError, match=r"rate of 'v' uses 'T_s', which is the sampling period, which a law alone"):
+        _plant(u + wb.period)
+    with pytest.raises(ValueError, match=r"metric 'm' uses 'T_s', which is the sampling period"):
+        wb.Setting(_plant(), 1.0, metrics=(wb.Metric("m", "integral", wb.period),))
+    run = wb.simulate(_plant(), wb.Law("l", {u: wb.period}), period_s=0.25, duration_s=1.0)
+    assert run["u"][-1] == 0.25
