@@ -6,7 +6,6 @@ import re
 import subprocess
 import sys
 from contextlib import contextmanager
-from pathlib import Path
 from weakref import ref
 
 import pyarrow.parquet
@@ -192,6 +191,10 @@ def test_the_folder_is_checked_and_a_wrong_derivative_is_found(mine, tmp_path):
      r"tuning.ranges.adaptive.k\[0\]: input should be greater than 0, not -3.0: correct it$"),
     ("duration_s = ", "log_every_s = 0.0007\nduration_s = ", "log_every_s = 0.0007 s is no whole number"),
     ('initial = { x = 0.3 }', 'initial = { y = 0.3 }', "initial.y"), ("horizon = 8", "horizon = 0", "horizon"),
+    ("reference.x_d = {", "reference.y_d = {", "tracks.x = 'x_d' is no reference: state reference.x_d$"),
+    ("disturbance.d = {", "disturbance.w = {", "study.toml: disturbance.w: plant"),
+    ("duration_s = ", "actuators = { lag_s = { v = 1.0 } }\nduration_s = ", "study.toml: actuators.lag_s.v: plant"),
+    ("plant_step_s = ", "plant_step_s = 1e-9 #", "duration_s / plant_step_s is more than"),
     ('kind = "sine"', 'kind = "sinus"', "reference.x_d"), ("period_s = 0.05\n", "period_s = 0.0505\n", "whole number"),
     ('factors = ["a"]', 'factors = ["c"]', "uncertainty"), ("weights = { x", "weights = { v", "weights.v")])
 def test_a_mistake_in_the_file_is_one_line_that_names_it(mine, tmp_path, old, new, words):
@@ -287,11 +290,6 @@ def test_columns_that_matlab_cannot_tell_apart_are_refused(tmp_path):
     with pytest.raises(WorkbenchError, match="one name in MATLAB"):
         write_mat({"a.b": [1.0], "a_b": [2.0]}, tmp_path / "x.mat")
     assert not list(tmp_path.iterdir())
-
-
-def test_an_entrant_is_a_law_or_builds_one():
-    with pytest.raises(ValueError, match="no law and builds no controller"):
-        wb.entrant(Path(), 0.1)
 
 
 def test_a_folder_with_nothing_to_check_does_not_hold(tmp_path):

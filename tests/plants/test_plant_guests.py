@@ -1,5 +1,6 @@
 """Controllers of other libraries drive a plant as the same law stated here does, and results become their tables."""
 
+import functools
 import sys
 
 import casadi as ca
@@ -32,6 +33,17 @@ def plain_pd(t, y, desired):
     return -4 * (y[0] - desired[0]) - 3 * y[1]
 
 
+def test_guests_are_told_of_a_step_at_the_sample_at_which_a_law_is():
+    """Three periods of 0.3 s are less than 0.9 s in floating point, by which the step came a whole period later."""
+    assert 3 * 0.3 < 0.9
+    setting = wb.Setting(MASS, 1.5, 0.01, references={"r": wb.Step(after=1.0, at_s=0.9)}, tracks={"x": "r"})
+    told = wb.compare(setting, [wb.entrant(one, 0.3) for one in (PD, casadi_pd(), control_pd(), plain_pd)])
+    law, *guests = (run["u_wanted"] for run in told)
+    for guest in guests:
+        np.testing.assert_allclose(guest, law, atol=1e-12)
+    assert np.flatnonzero(law)[0] == 90
+
+
 @pytest.fixture(scope="module")
 def compared():
     return wb.compare(SETTING, [wb.entrant(one, 0.01) for one in (PD, casadi_pd(), control_pd(), plain_pd)])
@@ -51,6 +63,19 @@ def test_what_a_controller_does_wrong_is_one_line(command, words):
     """More numbers than inputs were once written beyond an array's end."""
     with pytest.raises(ValueError, match=words):
         wb.compare(SETTING, [wb.entrant(command, 0.01)])
+
+
+def test_an_object_that_is_called_drives_a_plant_and_is_named_by_its_type(compared):
+    class Own:
+        def __call__(self, t, y, desired):
+            return plain_pd(t, y, desired)
+
+    for one, name in ((Own(), "Own"), (functools.partial(plain_pd), "partial")):
+        (run,) = wb.compare(SETTING, [wb.entrant(one, 0.01)])
+        assert run.name == name
+        np.testing.assert_array_equal(run["x"], compared["plain_pd"]["x"])
+    with pytest.raises(ValueError, match="a type is no law and builds no controller"):
+        wb.entrant(Own, 0.01)
 
 
 def test_a_state_of_a_guest_moves_once_a_sample():
@@ -117,3 +142,15 @@ def test_a_plant_without_inputs_or_law_moves_by_itself_and_a_number_is_a_referen
     one = wb.compare(SETTING.varied(references={r: 1}), [wb.entrant(PD, 0.01)])["pd"]
     assert one["r"].tolist() == [1.0] * len(one["r"]) and one["x"][-1] > 0.1
     assert str(one).startswith("pd on mass, to 0.5 s\n  x_error_rms = ") and repr(compared).count("\n") < 30
+
+
+@pytest.mark.parametrize("function", [sp.sec, sp.csc, sp.cot, sp.sech, sp.csch, sp.coth, sp.asinh, sp.acosh, sp.atanh,
+                                      sp.erf, sp.erfc, sp.frac, sp.Heaviside, lambda a: sp.Mod(a, sp.Rational(3, 4)),
+                                      lambda a: sp.Mod(a, -sp.Rational(3, 4))])
+def test_casadi_is_given_what_runs_are_compiled_of(function):
+    """A plant of these could be run and not be given to casadi, nor to MPC."""
+    at = 1.3 if function is sp.acosh else -0.4 if function is not sp.atanh else 0.6
+    plant = wb.Plant("bent", (x,), (function(x),), (u,))
+    want = float(sp.N(function(sp.Float(at, 30))))
+    assert float(plant.to_casadi()(0, at, 0, [])) == pytest.approx(want, rel=1e-14)
+    assert plant.rates_at([at])[0] == pytest.approx(want, rel=1e-14)

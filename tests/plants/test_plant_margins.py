@@ -45,6 +45,16 @@ def test_an_observer_and_a_bent_plant_are_part_of_the_loop():
     assert found(1j * omega) == pytest.approx(expected(1j * omega), rel=1e-9)
 
 
+def test_a_point_at_which_the_plant_does_not_rest_is_told():
+    """The loop about such a point is that of an instant: margins of it were told as if a run could stay there."""
+    bent = wb.Plant("bent", (x, v), (v, u - 2 * sp.sin(x)), (u,))
+    law = wb.Law("pd", {u: -4 * (x - R.value) - 4 * v}, references=(R,))
+    lost, held = (wb.margins(bent, law, at={"x": 0.6, "r": goal}) for goal in (0.0, 0.6 + math.sin(0.6) / 2))
+    assert lost.moving == {"v": pytest.approx(-4 * 0.6 - 2 * math.sin(0.6))}
+    assert "at this point the plant does not rest, it moves v by -3.529 per s: give a point of rest" in str(lost)
+    assert held.moving == {} and "rest" not in str(held) and held.rows == lost.rows
+
+
 def test_what_a_law_believes_is_not_what_is_true():
     m = sp.Symbol("m", positive=True)
     heavy = wb.Plant("heavy", (x, v), (v, u / m), (u,), parameters=(wb.Parameter(m, 2.0),))

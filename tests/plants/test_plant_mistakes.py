@@ -117,3 +117,76 @@ def test_an_input_begins_within_its_limits_or_is_refused() -> None:
     assert wb.simulate(bounded, law, **run).to_pandas()["u"].iloc[0] == 1
     with pytest.raises(ValueError, match=r"initial\.u = 99 is outside the input's limits, 1 to 5: give a value within"):
         wb.simulate(bounded, law, initial={u: 99}, **run)
+
+
+@pytest.mark.parametrize(("how", "words"), [
+    ({"terminal_weight": math.nan}, r"terminal_weight = nan: give a finite number that is not negative"),
+    ({"terminal_weight": -1.0}, r"terminal_weight = -1\.0: give a finite number"),
+    ({"terminal_weight": "1"}, r"terminal_weight = '1': give a finite number"),
+    ({"excess_price": -1.0}, r"excess_price = -1\.0: give a finite number"),
+    ({"input_targets": {"u": math.inf}}, r"input_targets\.u = inf: give a finite number"),
+    ({"disturbance_gain": "1"}, r"disturbance_gain = '1': give a number from 0 to 1")])
+def test_a_number_with_which_mpc_has_no_best_plan_is_refused(how: dict[str, Any], words: str) -> None:
+    """With a weight that is no number, or negative, MPC ran on plans of its own making without a word."""
+    with pytest.raises(ValueError, match=words):
+        wb.PlantMpc(5, {"x": 1.0}, **how)
+
+
+def test_what_is_known_of_a_parameter_agrees_with_its_symbol() -> None:
+    """A sweep that drew a negative mass ended in the middle, and gains were proved for masses that no car has."""
+    m, b = sp.Symbol("m", positive=True), sp.Symbol("b", real=True)
+    with pytest.raises(ValueError, match=r"parameter 'm': known begins at -1, and the symbol is declared positive"):
+        wb.Parameter(m, 2.0, known=(-1, 4))
+    with pytest.raises(ValueError, match=r"parameter 'b': known = \(0, inf\) has no end"):
+        wb.Parameter(b, 2.0, known=(0, None))  # type: ignore[arg-type]
+    assert wb.Parameter(m, 2.0, known=(0, 4)).known == (0, 4) and wb.Parameter(b, 2.0, known=(-1, 4)).known == (-1, 4)
+
+
+def test_compare_says_what_it_takes() -> None:
+    """Entrants beside a folder, which names its own, were left out without a word."""
+    plant = wb.Plant("m", (x, v), (v, u), (u,))
+    with pytest.raises(ValueError, match=r"the first argument is a Plant: give a folder, or a Setting\(plant"):
+        wb.compare(plant, [])  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match=r"entrants are for a Setting, and 'mine' names its own: leave them out"):
+        wb.compare("mine", [wb.entrant(wb.Law("l", {u: -x}), 0.1)])
+
+
+def test_what_only_a_law_has_is_refused_of_other_controllers() -> None:
+    """Parameters given beside a function of Python were left out without a word."""
+    for guest in (lambda t, y, r: -y[0], wb.PlantMpc(5, {"x": 1.0})):
+        for values in ({"parameters": {"k": 1}}, {"initial": {"q": 1}}):
+            with pytest.raises(ValueError, match=r"are a law's alone: leave them out, and put these values into"):
+                wb.entrant(guest, 0.1, **values)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, "a"])
+def test_a_laws_state_begins_with_a_number(value: Any) -> None:
+    q = sp.Symbol("q", real=True)
+    law = wb.Law("pi", {u: -x - q}, (wb.LawState(q, rate=x),))
+    with pytest.raises(ValueError, match=r"controller 'pi': initial value of 'q' = .* give"):
+        wb.simulate(wb.Plant("m", (x, v), (v, u), (u,)), law, period_s=0.1, duration_s=0.1, law_initial={"q": value})
+
+
+def test_a_metric_may_name_an_output() -> None:
+    """What it is of is there, without the measurement's noise."""
+    y = sp.Symbol("y", real=True)
+    plant = wb.Plant("m", (x, v), (v, u), (u,), outputs={y: x + 2 * v})
+    metrics = (wb.Metric("seen", "root mean square", y), wb.Metric("meant", "root mean square", x + 2 * v))
+    run = wb.simulate(plant, wb.Law("l", {u: -y}), period_s=0.1, duration_s=1.0, initial={"x": 1}, noise={"y": 0.1},
+                      metrics=metrics)
+    assert run.metrics["seen"] == run.metrics["meant"] != 0.0
+
+
+def test_an_entrant_is_a_law_or_builds_one() -> None:
+    with pytest.raises(ValueError, match="no law and builds no controller"):
+        wb.entrant(Path(), 0.1)
+
+
+def test_the_sampling_period_is_a_laws_alone() -> None:
+    """A plant that named it was told at its first run to make T_s a state."""
+    with pytest.raises(ValueError, match=r"rate of 'v' uses 'T_s', which is the sampling period, which a law alone"):
+        _plant(u + wb.period)
+    with pytest.raises(ValueError, match=r"metric 'm' uses 'T_s', which is the sampling period"):
+        wb.Setting(_plant(), 1.0, metrics=(wb.Metric("m", "integral", wb.period),))
+    run = wb.simulate(_plant(), wb.Law("l", {u: wb.period}), period_s=0.25, duration_s=1.0)
+    assert run["u"][-1] == 0.25

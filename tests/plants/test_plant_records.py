@@ -232,6 +232,16 @@ def test_rates_of_signals_are_their_derivatives(values):
     assert signals_at({"c": signals["c"]}, np.array(times))["c"][0] == pytest.approx(values, abs=1e-9)
 
 
+@pytest.mark.parametrize(("period_s", "sample", "ahead"), [(0.3, 0, 3), (0.1, 43, 1), (0.01, 1, 6)])
+def test_a_step_has_come_at_a_sample_that_rounding_puts_before_it(period_s, sample, ahead):
+    """What MPC is told ahead is what compiled code and laws are told when it comes, which take a step 1e-9 s early."""
+    at_s = round((sample + ahead) * period_s, 9)
+    t = sample * period_s + period_s * ahead
+    assert t < at_s
+    told = signals_at({"r": Step(before=1.0, after=2.0, at_s=at_s)}, np.array([t - 1e-6, t]))["r"]
+    assert told[0].tolist() == [1.0, 2.0]
+
+
 def test_a_spline_is_read_from_a_file_and_a_wrong_one_is_one_line(tmp_path):
     (tmp_path / "r.csv").write_text("t_s,q\n0,1\n1,2\n2,0\n")
     found = read_signal(Spline(file="r.csv", column="q"), tmp_path)

@@ -221,4 +221,5 @@ def test_a_paper_whose_certificates_are_gone_fails(small, tmp_path):
     assert "claims: 4" in " ".join(checked(folder)[1].split())
     for path in (folder / "certificates").iterdir():
         path.unlink()
-    assert checked(folder)[0] == 1
+    code, told = checked(folder)
+    assert code == 1 and "is missing: run 'workbench prove" in told

@@ -80,12 +80,18 @@ def simulate(plant: Plant, law: StateLaw | Any | None, *, period_s: float, durat
 def entrant(law: StateLaw | Any, period_s: float, parameters: Names | None = None, initial: Names | None = None,
             name: str = "") -> Entrant:
     """A controller with its values for `compare`: a law, what has `build(setting, period_s)`, as `PlantMpc`, or a
-    controller made elsewhere: a function (t, y, r) -> u of Python or casadi, over the plant's outputs and the
-    references' values in their orders, or a `control` system whose inputs are these and whose outputs are the plant's
-    inputs, by their names.
+    controller made elsewhere: a function (t, y, r) -> u of Python or casadi, or an object that is called so, over the
+    plant's outputs and the references' values in their orders, or a `control` system whose inputs are these and whose
+    outputs are the plant's inputs, by their names.
+
+    parameters and initial are a law's. Raises ValueError, one line, for what is none of these.
     """
     if isinstance(law, StateLaw):
         return Entrant(name or law.id, period_s, law, _named(parameters), _named(initial))
+    for what, given in (("parameters", parameters), ("initial", initial)):
+        if given:
+            raise ValueError(f"{what} of a {type(law).__name__}: are a law's alone: leave them out, and put these "
+                             "values into the controller")
     guest = guest_controller(law)
     if guest is not None:
         return Entrant(name or guest.name, period_s, build=guest.build)
@@ -114,6 +120,12 @@ def compare(what: str | Path | Loaded | Setting, entrants: Sequence[Entrant] = (
             raise ValueError(f"two entrants are called '{max(names, key=names.count)}': name them apart")
         setting, nominal = what, what.plant.values()
     else:
+        if not isinstance(what, str | Path | Loaded):
+            raise ValueError(f"the first argument is a {type(what).__name__}: give a folder, or a Setting(plant, "
+                             "duration_s, ...) and its entrants")
+        if entrants:
+            raise ValueError(f"entrants are for a Setting, and '{what}' names its own: leave them out, or give "
+                             "wb.load(FOLDER).record.setting in its place")
         study = _plant_study(what if isinstance(what, Loaded) else load(what))
         setting, entrants, nominal = study.setting, list(study.entrants().values()), study.setting.parameters
     return Comparison(setting, tuple(Run(setting, run_plant(setting, one, nominal)) for one in entrants))

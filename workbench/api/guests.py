@@ -42,6 +42,8 @@ def guest_controller(controller: Any) -> Guest | None:
         return Guest(controller.name or "control", controller, _System)
     if isinstance(controller, FunctionType | MethodType):
         return Guest(controller.__name__.strip("<>"), controller, _Plain)
+    if callable(controller) and not isinstance(controller, type) and not hasattr(controller, "build"):
+        return Guest(type(controller).__name__, controller, _Plain)  # an object that is called, a functools.partial
     return None
 
 

@@ -25,16 +25,22 @@ class Loops:
 
     least_gain, most_gain: between which factors of its gain it stays stable; phase_deg: by how much its phase may lag
     more; delay_s: how much later its command may come; largest_pole: real part (1/s) of the closed loop's pole farthest
-    to the right: where it is positive the loop is unstable, and the margins are None.
+    to the right: where it is positive the loop is unstable, and the margins are None. moving: states that are not at
+    rest at the point, with their rates per second: there the loops are those of an instant, and no run stays there.
     """
 
     loops: Mapping[str, Any]
     rows: list[dict[str, Any]]
+    moving: Mapping[str, float]
 
     def __str__(self) -> str:
-        return "\n".join(f"opened at {row['input']}: " + ", ".join(
+        told = [f"opened at {row['input']}: " + ", ".join(
             f"{key} = {'none' if value is None else format(value, '.4g')}" for key, value in row.items()
-            if key != "input") for row in self.rows)
+            if key != "input") for row in self.rows]
+        if self.moving:
+            rates = ", ".join(f"{state} by {rate:.4g} per s" for state, rate in self.moving.items())
+            told.append(f"at this point the plant does not rest, it moves {rates}: give a point of rest by at={{...}}")
+        return "\n".join(told)
 
     __repr__ = __str__
 
@@ -90,4 +96,5 @@ def margins(plant: Plant, law: StateLaw, *, at: Mapping[Any, float] | None = Non
         rows.append({"input": name, "least_gain": found and found.least, "most_gain": found and found.most,
                      "phase_deg": found and found.phase_deg, "delay_s": found and found.delay_s,
                      "largest_pole": one.abscissa})
-    return Loops(loops, rows)
+    rates = next(iter(opened.values())).rates if opened else {}
+    return Loops(loops, rows, {state: rate for state, rate in rates.items() if abs(rate) > AT_REST})

@@ -14,7 +14,14 @@ from workbench.model.law import time
 _FUNCTIONS: dict[Any, Any] = {
     sp.exp: ca.exp, sp.log: ca.log, sp.sin: ca.sin, sp.cos: ca.cos, sp.tan: ca.tan, sp.tanh: ca.tanh, sp.sinh: ca.sinh,
     sp.cosh: ca.cosh, sp.asin: ca.asin, sp.acos: ca.acos, sp.atan: ca.atan, sp.atan2: ca.atan2, sp.Abs: ca.fabs,
+    sp.sec: lambda a: 1 / ca.cos(a), sp.csc: lambda a: 1 / ca.sin(a), sp.cot: lambda a: 1 / ca.tan(a),
+    sp.sech: lambda a: 1 / ca.cosh(a), sp.csch: lambda a: 1 / ca.sinh(a), sp.coth: lambda a: 1 / ca.tanh(a),
+    sp.asinh: ca.asinh, sp.acosh: ca.acosh, sp.atanh: ca.atanh, sp.erf: ca.erf,
+    sp.erfc: lambda a: 1 - ca.erf(a), sp.frac: lambda a: a - ca.floor(a),
     sp.sign: ca.sign, sp.floor: ca.floor, sp.ceiling: ca.ceil,
+    # As sympy has it: of the divisor's sign, where casadi's is of the dividend's.
+    sp.Mod: lambda a, b: a - b * ca.floor(a / b),
+    sp.Heaviside: lambda a, at_zero: ca.if_else(a > 0, 1, ca.if_else(a < 0, 0, at_zero)),
 }
 _RELATIONS: dict[Any, Any] = {sp.StrictLessThan: ca.lt, sp.LessThan: ca.le, sp.Equality: ca.eq, sp.Unequality: ca.ne}
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from workbench.model.law import time
 from workbench.systems.setting import Setting, first_inputs
-from workbench.systems.symbols import is_finite, named_values, plain
+from workbench.systems.symbols import is_finite, named_values, plain, written
 
 Solver = Literal["fatrop", "ipopt"]
 MOST_STAGES = 1000
@@ -66,14 +66,20 @@ class PlantMpcValues:
                              f"1 to {MOST_STAGES} samples and at least one step")
         if self.solver not in get_args(Solver):
             raise ValueError(f"solver '{self.solver}' is not known: it is one of {', '.join(get_args(Solver))}")
-        for key in NOT_NEGATIVE:
-            for name, value in getattr(self, key).items():
-                if not (is_finite(value) and value >= 0):
-                    raise ValueError(f"{key}.{name} = {value}: give a number that is not negative")
+        for key in ("terminal_weight", "excess_price", "disturbance_gain"):
+            object.__setattr__(self, key, plain(getattr(self, key)))
+        sizes = {f"{key}.{name}": value for key in NOT_NEGATIVE for name, value in getattr(self, key).items()}
+        for where, value in {**sizes, "terminal_weight": self.terminal_weight,
+                             "excess_price": self.excess_price}.items():
+            if not (is_finite(value) and value >= 0):
+                raise ValueError(f"{where} = {written(value)}: give a finite number that is not negative")
+        for name, value in self.input_targets.items():
+            if not is_finite(value):
+                raise ValueError(f"input_targets.{name} = {written(value)}: give a finite number")
         if not self.weights and not self.objective:
             raise ValueError("weights and objective are empty: state weights of tracked outputs, or of metrics")
-        if not 0 <= self.disturbance_gain <= 1:
-            raise ValueError(f"disturbance_gain = {self.disturbance_gain}: give a number from 0 to 1")
+        if not (is_finite(self.disturbance_gain) and 0 <= self.disturbance_gain <= 1):
+            raise ValueError(f"disturbance_gain = {written(self.disturbance_gain)}: give a number from 0 to 1")
         self._check_observer()
         for name in self.input_weights if self.disturbance_gain else ():
             raise ValueError(f"input_weights.{name}: pulls away from the desired output, which disturbance_gain is to "
@@ -116,10 +122,10 @@ class PlantMpcValues:
                                      f"{', '.join(inputs) or 'none'}")
         metrics = {metric.id: metric.measure for metric in setting.every_metric}
         for name, weight in self.objective.items():
-            if metrics.get(name) in (None, "largest", "smallest") or not math.isfinite(weight):
+            if metrics.get(name) in (None, "largest", "smallest") or not is_finite(weight):
                 known = [one for one, measure in metrics.items() if measure not in ("largest", "smallest")]
-                raise ValueError(f"objective.{name} = {weight}: give a number for a metric that is integrated or taken "
-                                 f"at the end: {', '.join(known) or 'none is stated'}")
+                raise ValueError(f"objective.{name} = {written(weight)}: give a number for a metric that is integrated "
+                                 f"or taken at the end: {', '.join(known) or 'none is stated'}")
 
     def _check_estimates(self, setting: Setting) -> None:
         """ValueError for what is no state and no disturbance of the plant."""

@@ -10,7 +10,15 @@ import sympy as sp
 
 from workbench.model.law import LawState, period
 from workbench.systems.plant import Plant, checked_value
-from workbench.systems.symbols import expression, named_values, require_distinct, require_known, several, symbols_of
+from workbench.systems.symbols import (
+    CLOCK,
+    expression,
+    named_values,
+    require_distinct,
+    require_known,
+    several,
+    symbols_of,
+)
 
 ORDERS = ("", "_dot", "_ddot", "_dddot")
 
@@ -148,7 +156,7 @@ class StateLaw:
                 if str(symbol) in hidden:
                     raise ValueError(f"{where}: {what} uses '{symbol}', a state that plant '{plant.id}' does not "
                                      f"measure: use its outputs {', '.join(map(str, plant.outputs))}")
-        require_known(stated, known, where, "make it a parameter, a state or a reference of the law")
+        require_known(stated, known, where, "make it a parameter, a state or a reference of the law", CLOCK)
 
     def _require_own_names(self, plant: Plant) -> None:
         """ValueError where the law calls what is its own by a name of the plant's: both would be taken for one, and a

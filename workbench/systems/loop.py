@@ -20,11 +20,15 @@ from workbench.systems.symbols import named_values
 
 @dataclass(frozen=True)
 class OpenedLoop:
-    """x' = A x + B u, what comes back is -C x, with the states of plant and law; shapes (n, n), (n, 1) and (1, n)."""
+    """x' = A x + B u, what comes back is -C x, with the states of plant and law; shapes (n, n), (n, 1) and (1, n).
+
+    rates: how fast each state moves at the point itself, per second, by its name; zero where it is a point of rest.
+    """
 
     A: NDArray[np.float64]
     B: NDArray[np.float64]
     C: NDArray[np.float64]
+    rates: Mapping[str, float]
 
     @property
     def abscissa(self) -> float:
@@ -66,7 +70,9 @@ def opened_loops(plant: Plant, law: StateLaw, at: Mapping[Any, float] | None = N
         rows = [move.xreplace(others) for move in moves]
         try:
             found[str(k)] = OpenedLoop(jacobian_at(rows, states, here), jacobian_at(rows, [k], here),
-                                       -jacobian_at([commands[k]], states, here))
+                                       -jacobian_at([commands[k]], states, here),
+                                       {str(s): float(sp.N(row.xreplace(here))) for s, row in zip(
+                                           states, rows, strict=True)})
         except ValueError as trouble:
             raise ValueError(f"plant '{plant.id}' under law '{law.id}': {trouble}") from None
     return found

@@ -14,7 +14,7 @@ Measure = Literal["integral", "mean", "root mean square", "terminal", "largest",
 
 @dataclass(frozen=True)
 class Metric:
-    """expression: over a plant's states, inputs as they act, disturbances, parameters, references and time.
+    """expression: over a plant's states, outputs, inputs as they act, disturbances, parameters, references and time.
 
     measure: its integral over time (integrated with the plant, by the same steps), its mean, the root of the mean of
     its square, its value at the end, or its largest or smallest value at any plant step. Raises ValueError for what is

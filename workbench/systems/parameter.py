@@ -34,6 +34,12 @@ class Parameter:
             if not low <= self.value <= high:
                 raise ValueError(f"{where} = {self.value:g} lies outside the known interval [{low:g}, {high:g}]: "
                                  "correct one of them")
+            if not (math.isfinite(low) and math.isfinite(high)):
+                raise ValueError(f"{where}: known = ({low:g}, {high:g}) has no end: a sweep draws from it, give two "
+                                 "finite numbers")
+            if low < 0 and self.symbol.is_nonnegative:  # a sweep would draw from it, and gains be proved for it
+                raise ValueError(f"{where}: known begins at {low:g}, and the symbol is declared "
+                                 f"{_sign(self.symbol)}: correct one of them")
 
 
 def checked_value(symbol: sp.Symbol, value: Any, where: str) -> float:
@@ -48,6 +54,9 @@ def checked_value(symbol: sp.Symbol, value: Any, where: str) -> float:
     if not math.isfinite(number):
         raise ValueError(f"{where} = {number} is not finite: give a number")
     if (symbol.is_positive and number <= 0) or (symbol.is_nonnegative and number < 0):
-        raise ValueError(f"{where} = {number:g}, but the symbol is declared "
-                         f"{'positive' if symbol.is_positive else 'nonnegative'}: correct one of them")
+        raise ValueError(f"{where} = {number:g}, but the symbol is declared {_sign(symbol)}: correct one of them")
     return number
+
+
+def _sign(symbol: sp.Symbol) -> str:
+    return "positive" if symbol.is_positive else "nonnegative"

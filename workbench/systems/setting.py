@@ -96,6 +96,10 @@ class Setting:
         names = [metric.id for metric in self.metrics]
         if len(set(names)) < len(names):
             raise ValueError(f"two metrics are called '{max(names, key=names.count)}': rename one")
+        # A metric may name an output: it is of what is there, not of what was measured with noise or late.
+        seen = {symbol: value for symbol, value in plant.outputs.items() if symbol != value}
+        object.__setattr__(self, "metrics", tuple(
+            replace(one, expression=one.expression.xreplace(seen)) for one in self.metrics))
         require_known({f"metric '{m.id}'": m.expression for m in self.metrics}, self.symbols, f"plant '{plant.id}'")
 
     def _check_times(self) -> None:

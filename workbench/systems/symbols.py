@@ -136,14 +136,20 @@ def require_distinct(groups: Mapping[str, Iterable[sp.Symbol]], where: str) -> N
 
 
 def require_known(expressions: Mapping[str, sp.Expr], known: Iterable[sp.Symbol], where: str,
-                  remedy: str = "make it a state, an input, a disturbance or a parameter") -> None:
-    """ValueError for the first symbol without a value; a near name, or the same with other assumptions, is told."""
-    allowed = set(known) | set(CLOCK)
+                  remedy: str = "make it a state, an input, a disturbance or a parameter",
+                  clock: Iterable[sp.Symbol] = (time,)) -> None:
+    """ValueError for the first symbol without a value; a near name, or the same with other assumptions, is told.
+
+    clock: what else there is: time, and for a law the sampling period.
+    """
+    allowed = set(known) | set(clock)
     names = {str(symbol): symbol for symbol in allowed}
     for what, expr in expressions.items():
         for symbol in sorted(expr.free_symbols - allowed, key=str):
             name = str(symbol)
-            if name in names:
+            if symbol == period:
+                hint = "is the sampling period, which a law alone has: make it a parameter"
+            elif name in names:
                 hint = "has other assumptions than the declared symbol of that name: use the same object"
             else:
                 close = get_close_matches(name, names, n=1)

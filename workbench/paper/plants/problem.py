@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
@@ -24,6 +25,9 @@ from workbench.systems.setting import UNSTATED, Setting
 from workbench.systems.signals import read_signal
 
 TUNED = " (tuned)"
+# What a Setting calls its fields, and what the file does: a remedy names the key that is to be written there.
+KEYS = {"references": "reference", "disturbances": "disturbance", "noise": "sensing.noise", "late_s": "sensing.late_s",
+        "lag_s": "actuators.lag_s", "delay_s": "actuators.delay_s"}
 
 
 class LocatedPlantStudy(PlantStudy):
@@ -59,7 +63,7 @@ class LocatedPlantStudy(PlantStudy):
                 self.actuators.lag_s, self.actuators.delay_s, tuple({m.id: m for m in metrics}.values()),
                 self.sensing.seed, self.integrator)
         except ValueError as trouble:
-            raise InputError(self.file, "", str(trouble)) from None
+            raise InputError(self.file, "", _as_in_file(trouble)) from None
 
     def law(self, name: str) -> StateLaw:
         """A law by the name that the file gives it; InputError with the names there are."""
@@ -91,7 +95,7 @@ class LocatedPlantStudy(PlantStudy):
                 made = Entrant(shown or name, entry.period_s, build=how.build)
             made.check(self.setting)
         except ValueError as trouble:
-            raise InputError(self.file, f"controllers.{name}", str(trouble)) from None
+            raise InputError(self.file, f"controllers.{name}", _as_in_file(trouble)) from None
         return made
 
     def entrants(self) -> dict[str, Entrant]:
@@ -149,6 +153,12 @@ def located(study: PlantStudy, path: Path) -> LocatedPlantStudy:
             _require_numbers(_file_of(law, entry.law, path), f"law '{law.id}'",
                              (*law.commands.values(), *moves, *law.domain))
     return found
+
+
+def _as_in_file(trouble: ValueError) -> str:
+    """What does not fit, its keys as the study's file has them."""
+    words = re.sub(r"(?<![\w.])step_s\b", "plant_step_s", str(trouble))
+    return re.sub(rf"(?<![\w.])({'|'.join(KEYS)})(?=\.\w)", lambda found: KEYS[found[1]], words)
 
 
 def _file_of(law: StateLaw, named_as: str, path: Path) -> Path:
