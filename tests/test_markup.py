@@ -48,4 +48,4 @@ def test_a_column_of_results_has_as_many_digits_in_every_row(monkeypatch):
     with out_console.capture() as shown:
         out_console.print(metrics_table([{**ROW, **values, "controller": "c", "failed": None}], "t"))
     assert shown.get().splitlines()[-3].split() == [
-        "c", "1", "[-239,", "1.00]", "[1.00,", "1.00]", "-3.80", "6477", "0"]
+        "c", "1", "[−239,", "1.00]", "[1.00,", "1.00]", "−3.80", "1799.2", "0"]

@@ -2,7 +2,7 @@
 
 import pytest
 
-from workbench.report.claims import in_words
+from workbench.report.claims import by_section, claim_views, in_words
 from workbench.report.typography import set_words
 
 
@@ -20,3 +20,11 @@ def test_signs_dashes_and_options(typed, printed):
 
 def test_a_formula_keeps_its_own_signs():
     assert "−" in in_words("at -2 it is $x_1 - 2$") and "<math" in in_words("at -2 it is $x_1 - 2$")
+
+
+@pytest.mark.parametrize(("stated", "shown"), [
+    (["2", "", "5.1", "4", "10"], ["2", "4", "5.1", "10", ""]),  # by their numbers, what has none last
+    (["V", "", "III"], ["V", "III", ""])])  # no numbers: as they come
+def test_sections_of_a_proof_stand_in_their_order(stated, shown):
+    claims = claim_views({"claims": [{"id": f"p:{i}", "section": section} for i, section in enumerate(stated)]})
+    assert [section for section, _ in by_section(claims)] == shown

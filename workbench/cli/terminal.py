@@ -248,7 +248,7 @@ def _columns(table: Table, *headings: str) -> None:
 
 def _number(value: float | None, scale: float = 1.0) -> str:
     """A number with three digits, zeros at its end among them: a column's numbers are known equally well."""
-    return "–" if value is None else "0" if value == 0 else f"{value * scale:#.3g}".rstrip(".")
+    return "–" if value is None else "0" if value == 0 else f"{value * scale:#.3g}".rstrip(".").replace("-", "−")
 
 
 def _range(low: float | None, high: float | None, scale: float = 1e3) -> str:
