@@ -60,9 +60,9 @@ def check_claims(place: Path, path: Path) -> tuple[list[Row], int]:
     try:
         manifest = read_manifest(place / MANIFEST)
     except CertificateError as trouble:
-        why = f"{trouble} (the claims of {path} need one)" if (place / MANIFEST).exists() else (
+        unread = f"{trouble} (the claims of {path} need one)" if (place / MANIFEST).exists() else (
             f"is missing: run 'workbench prove {path} --write'")
-        return [(place / MANIFEST, "?", why)], 0
+        return [(place / MANIFEST, "?", unread)], 0
     claims = {claim.equation: claim for paper in papers_in(file) if paper.name == manifest.paper
               for claim in paper.claims}
     rows: list[Row] = [(place / f"{name}.json", str(entry["verdict"]), f"{path} states no such claim")

@@ -11,10 +11,12 @@ from workbench.simulate.plants.solver import MOST_CALLS, SOLVER_FAILED
 from workbench.systems.law import StateLaw
 from workbench.systems.setting import Setting
 
-STIFF = ": where the plant itself is stable, its fastest pole wants a shorter step_s, or the integrator 'radau'"
+STEP = "step_s (in a study's file plant_step_s)"
+STIFF = f": where the plant itself is stable, its fastest pole wants a shorter {STEP}, or the integrator 'radau'"
 
 UNDEFINED = ("the rates are no finite numbers there: a root, logarithm or quotient left its domain (state it as the "
-             "plant's domain), or step_s is too long for its fastest pole (shorten it, or take the integrator 'radau')")
+             f"plant's domain), or {STEP} is too long for its fastest pole (shorten it, or take the integrator "
+             "'radau')")
 
 
 def why(setting: Setting, name: str, law: StateLaw | None, status: int, t: float, a: Arrays) -> str | None:
@@ -33,7 +35,7 @@ def why(setting: Setting, name: str, law: StateLaw | None, status: int, t: float
             "(state a mode in which the plant rests), which was",
             TOO_MANY: f"met more than {MOST_IN_A_RUN} events, '{last}' last, which was",
             SOLVER_FAILED: "was given up by the solver (its rates are no finite numbers, it grows beyond every bound, "
-            f"or step_s is too long: a step takes {MOST_CALLS} calls of the rates at most)", DIVERGED: "diverged",
+            f"or {STEP} is too long: a step takes {MOST_CALLS} calls of the rates at most)", DIVERGED: "diverged",
             OUTSIDE: f"left the plant's domain ({domain})",
             NO_COMMAND: "gave a command that is no number", LAW_OUTSIDE: f"left its domain ({domain})"}
     remedy = STIFF if status == DIVERGED and setting.integrator == "rk4" else ""
