@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from workbench.optimal.course import Course
-from workbench.optimal.envelope import InfeasibleRunError, _slope_in_parts, device_limits, fastest
+from workbench.optimal.envelope import InfeasibleRunError, _slope_in_parts, fastest
+from workbench.optimal.force_limits import device_limits
 from workbench.optimal.grid import graded_grid
 from workbench.optimal.inputs.line import Line, course
 from workbench.optimal.vehicle import ForceLimit, Vehicle

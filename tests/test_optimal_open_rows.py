@@ -23,7 +23,7 @@ def _large_from_fewer_intervals(monkeypatch):
 
 
 def whole(vehicle, grid, asked):
-    return socp._solve(vehicle, grid, asked, (0.0, 0.0))
+    return socp._solve(vehicle, grid, asked, (0.0, 0.0), unit=socp.cost_unit(grid))
 
 
 @pytest.mark.parametrize("vehicle", TRAINS, ids=lambda vehicle: vehicle.name)
@@ -43,9 +43,9 @@ def test_what_is_left_out_is_a_good_part_and_small_programs_are_left_alone(monke
     sizes = []
     solve = socp._solve
 
-    def counted(vehicle, grid, asked, ends, rows=None, extra_s=None):
+    def counted(vehicle, grid, asked, ends, rows=None, extra_s=None, unit=1.0):
         sizes.append((len(grid.limit_mps), rows))
-        return solve(vehicle, grid, asked, ends, rows, extra_s)
+        return solve(vehicle, grid, asked, ends, rows, extra_s, unit)
 
     monkeypatch.setattr(socp, "_solve", counted)
     course = hilly()
@@ -57,6 +57,16 @@ def test_what_is_left_out_is_a_good_part_and_small_programs_are_left_alone(monke
     (few, first), (many, rows) = sizes
     assert first is None and few < many / 5
     assert rows.brake.mean() < 0.5 and rows.pull.mean() < 0.8 and rows.top.mean() < 0.8
+
+
+def test_the_unit_of_the_cost_decides_the_work_and_not_the_plan():
+    course = hilly()
+    grid, asked = graded_grid(course, 400), 1.05 * least_time(CONVEX[0], course).trip_time_s
+    one, other = (socp._solve(CONVEX[0], grid, asked, (0.0, 0.0), unit=unit)[0] for unit in (1.0, socp.cost_unit(grid)))
+    assert socp.cost_unit(grid) < socp.cost_unit(grid, 5e-4)
+    assert one.energy_j == pytest.approx(other.energy_j, rel=2e-6)
+    assert one.time_price_w == pytest.approx(other.time_price_w, rel=2e-3)
+    np.testing.assert_allclose(np.sqrt(2 * one.half_square), np.sqrt(2 * other.half_square), atol=0.05)
 
 
 @pytest.mark.parametrize("closed", ["pull", "brake", "pull_limit", "top"])

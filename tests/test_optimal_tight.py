@@ -99,9 +99,10 @@ def test_p_on_a_line_at_the_limits_proves_more_near_the_least_time(plan, quickes
 def test_forms_of_p_joined_piece_by_piece_prove_more_than_each(plan, quickest):
     course, timetable = plan.grid.course, as_timetable(plan.grid.course, 1.001 * quickest.trip_time_s)
     forms = [certificate_from(TRAIN, plan, near, bent) for near in NEAR_LIMIT for bent in BENT_FROM]
-    joined = best_forms(TRAIN, course, forms, middles(plan), timetable, 0.0, 0.0)
+    bound, joined = best_forms(TRAIN, course, forms, middles(plan), timetable, 0.0, 0.0)
     alone = [lower_bound(TRAIN, course, form, timetable) for form in forms]
-    assert max(alone) < lower_bound(TRAIN, course, joined, timetable) < plan.energy_j
+    assert max(alone) < bound < plan.energy_j
+    assert bound == lower_bound(TRAIN, course, joined, timetable)
     # Pieces are chosen, nothing is mixed.
     assert np.any([form.left == joined.left for form in forms], axis=0).all()
 

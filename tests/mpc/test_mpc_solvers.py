@@ -177,6 +177,19 @@ def test_a_warm_start_changes_the_work_and_not_the_plan():
     assert passes[0] < passes[1]
 
 
+@pytest.mark.parametrize("kind", [LinearMpc, NonlinearMpc])
+@pytest.mark.parametrize("actuator", ACTUATORS)
+def test_rows_that_come_to_their_limit_beside_held_commands_hardly_ever_need_an_interior_point(actuator, kind):
+    """The run moves through the horizon sample by sample: commands at their limit, then power at its own to the end."""
+    problem, ahead = problem_of(50, actuator, "power, for long")
+    mpc = kind(problem, ahead)
+    _, commands, solutions = closed_loop(problem, ahead, mpc, 60)
+    assert commands.max() == pytest.approx(1.0)
+    assert all(s.solved for s in solutions)
+    few = [s.passes for s in solutions if not s.interior]
+    assert len(few) >= 58 and max(few[1:]) <= 8
+
+
 def test_the_nonlinear_plan_cannot_be_improved_by_a_search_that_knows_no_derivatives_of_ours():
     problem, ahead = problem_of(6, "direct", "power, a little")
     mpc = NonlinearMpc(problem, ahead)

@@ -11,7 +11,7 @@ from workbench.mpc.problem import Array, Problem
 from workbench.mpc.solution import Solution
 from workbench.mpc.terminal import Lqr, lqr
 
-MOST_PASSES, MOST_INTERIOR = 8, 100
+MOST_PASSES, MOST_INTERIOR = 12, 100
 
 
 class NonlinearMpc:

@@ -110,6 +110,8 @@ def active_set(cross, jac, gap, start, Q0, q0, R, r, low, high, rows, price, h, 
         riccati(cross, jac, gap, start, Q, q, R, r, fixed, bound, kept, dx, du, slope)
         moved = False
         for k in range(N):
+            if not abs(du[k]) < 10.0 * (high[k] - low[k]):
+                return -1  # what is held contradicts itself, and the guesses after it hardly come to rest
             if fixed[k] == 0:
                 if du[k] > high[k] + 1e-10:
                     fixed[k] = 1
@@ -135,12 +137,15 @@ def active_set(cross, jac, gap, start, Q0, q0, R, r, low, high, rows, price, h, 
                     elif abs(value) > 1e-9:
                         moved = True
                 elif state[k, i] == 0 and value > 1e-9:
+                    # The command before the row is set free to meet it: both held ask too much of the others.
                     state[k, i] = 1
                     pull[k, i] = 0.0
+                    fixed[k - 1] = 0
                     moved = True
                 elif state[k, i] == 2 and value < -1e-9:
                     state[k, i] = 1
                     pull[k, i] = price[i, 0]
+                    fixed[k - 1] = 0
                     moved = True
         if not moved:
             return passed

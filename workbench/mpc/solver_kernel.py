@@ -91,9 +91,11 @@ def cost_around(x, u, ahead, weights, terminal, limits, Q, q, R, r, low, high):
 
 
 def shift(fixed, state, pull):
-    """The active set one stage later, the last one kept."""
-    for k in range(fixed.shape[0] - 1):
-        fixed[k] = fixed[k + 1]
+    """The active set one stage later. The last stages are kept, of commands two: the last one drives no row."""
+    last = fixed.shape[0] - 1
+    for k in range(last):
+        if k < last - 1:
+            fixed[k] = fixed[k + 1]
         for i in range(state.shape[1]):
             state[k, i] = state[k + 1, i]
             pull[k, i] = pull[k + 1, i]

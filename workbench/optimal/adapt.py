@@ -14,9 +14,9 @@ from workbench.optimal.vehicle import Vehicle
 from workbench.trains.resistance import davis_resistance
 
 # Intervals that a finer mesh has more, as a share: at least, where nothing is known of the gap, and at most.
-LEAST_GROWTH, GROWTH, MOST_GROWTH = 0.3, 0.7, 1.5
+LEAST_GROWTH, GROWTH, MOST_GROWTH = 0.3, 0.7, 3.0
 # A finer mesh aims at this share of the gap wanted.
-AIM = 0.9
+AIM = 0.8
 # Where p changes by more than this share from one interval to the next, none is so many times as long as its neighbour:
 # p falls by what the longer one has, and the bound loses it on the shorter one.
 P_CHANGE, LONGER, GRADINGS = 0.02, 2.5, 8

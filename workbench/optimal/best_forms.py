@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from workbench.optimal.bound import cell_bounds_of
-from workbench.optimal.bound_fixed import fixed_parts
+from workbench.optimal.bound_fixed import fixed_part, fixed_parts
 from workbench.optimal.certificate import Certificate
 from workbench.optimal.course import Array, Course
 from workbench.optimal.timetable import Timetable
@@ -20,8 +20,8 @@ from workbench.optimal.vehicle import Vehicle
 
 
 def best_forms(vehicle: Vehicle, course: Course, forms: Sequence[Certificate], agreed_m: Array, timetable: Timetable,
-               start_mps: float, end_mps: float) -> Certificate:
-    """The certificate that is on each piece that of the forms with the highest bound there.
+               start_mps: float, end_mps: float) -> tuple[float, Certificate]:
+    """The certificate that is on each piece that of the forms with the highest bound there, and its own bound, J.
 
     forms: on the same cells, at the same prices. agreed_m: where all have the same value, each a border of theirs.
     """
@@ -36,5 +36,8 @@ def best_forms(vehicle: Vehicle, course: Course, forms: Sequence[Certificate], a
         added[k] += np.bincount(inner, fixed.jumps_j, count)
         added[k, [0, -1]] += fixed.ends_j
     best, every = np.argmax(added, axis=0)[cells], np.arange(len(cells))
-    return replace(forms[0], left=np.stack([form.left for form in forms])[best, every],
-                   right=np.stack([form.right for form in forms])[best, every])
+    joined = replace(forms[0], left=np.stack([form.left for form in forms])[best, every],
+                     right=np.stack([form.right for form in forms])[best, every])
+    # A cell's part hangs on nothing but the cell.
+    rest_j = fixed_part(vehicle, course, joined, timetable, start_mps, end_mps).total_j
+    return float(bounds[best, every].sum()) + rest_j, joined

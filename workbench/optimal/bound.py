@@ -46,6 +46,8 @@ from workbench.optimal.vehicle import Vehicle
 
 # A tunnel's drag is linear along a cell up to this share.
 DRAG_TOLERANCE = 1e-9
+# As near as this share to where a term is least, its value is the least one: it rises with the square of the distance.
+CLOSE = 1e-9
 # So many cells at a time: what is worked out of them then stays in the processor's cache.
 BLOCK = 1024
 
@@ -91,14 +93,22 @@ def cell_bounds_of(vehicle: Vehicle, course: Course, forms: Sequence[Certificate
         raise WorkbenchError(f"certificate of a bound: counts {first.auxiliary_w:g} W of auxiliaries, more "
                              f"than the train's {vehicle.auxiliary_w:g} W: solve again")
     cells, price, length = _cells(course, first), first.cell_prices_w(timetable), np.diff(first.position_m)
-    least = np.full((len(forms), 2, len(length)), np.inf)
+    found = np.empty((len(forms), len(length)))
     for k, form in enumerate(forms):
-        for begin in range(0, len(length), BLOCK):
-            block = slice(begin, begin + BLOCK)
+        new = np.ones(len(length), dtype=bool)
+        for known, values in zip(forms[:k], found[:k], strict=True):
+            same = new & (known.left == form.left) & (known.right == form.right)
+            found[k, same] = values[same]  # most forms differ on few cells
+            new &= ~same
+        where = np.flatnonzero(new)
+        for begin in range(0, len(where), BLOCK):
+            block = where[begin:begin + BLOCK]
             terms = bound_terms(vehicle, cells.part(block), np.stack((form.left[block], form.right[block])),
                                 price[block], length[block])
-            np.minimum.at(least[k, :, block], (terms.end.astype(int), terms.cell.astype(int)), minima(terms))
-    return np.asarray(length * least.mean(axis=1))
+            least = np.full((2, len(block)), np.inf)
+            _gather(least, terms.end, terms.cell, minima(terms))
+            found[k, block] = length[block] * least.mean(axis=0)
+    return found
 
 
 def bound_terms(vehicle: Vehicle, cells: Cells, p: Array, price: Array, length_m: Array) -> Terms:
@@ -133,8 +143,8 @@ class Cells:
     least_force: Array
     most_force: Array
 
-    def part(self, of: slice) -> Cells:
-        """Some of them."""
+    def part(self, of: NDArray[np.intp]) -> Cells:
+        """Those of these numbers."""
         return Cells(self.top_mps, self.limit_mps[of], self.drag[:, of], self.least_force[of], self.most_force[of])
 
 
@@ -219,10 +229,21 @@ def _choose(where: NDArray[np.bool_], one: Coefficients, other: Coefficients) ->
 
 def minima(terms: Terms) -> Array:
     """The least value of each term on its range: at an end, or where the derivative passes zero upwards."""
-    return np.asarray(_minima(terms.low, terms.high, terms.inverse, terms.constant, terms.slope, terms.square))
+    found = np.empty(len(terms.low))
+    _minima(found, terms.low, terms.high, terms.inverse, terms.constant, terms.slope, terms.square)
+    return found
 
 
-@compiled()
+@compiled(error_model="numpy", _nrt=False)
+def _gather(least: Array, end: Array, cell: Array, found: Array) -> None:
+    """Lower the least value of each cell's end to what was found of it."""
+    for k in range(len(found)):
+        row, column, value = int(end[k]), int(cell[k]), found[k]
+        if value < least[row, column] or np.isnan(value):  # what is none stays, so that nothing is proven
+            least[row, column] = value
+
+
+@compiled(error_model="numpy", _nrt=False)
 def _value(v: float, a: float, b: float, c: float, d: float) -> float:
     first = 0.0
     if v > 0.0:
@@ -232,15 +253,15 @@ def _value(v: float, a: float, b: float, c: float, d: float) -> float:
     return first + b + c * v + d * v * v
 
 
-@compiled()
+@compiled(error_model="numpy", _nrt=False)
 def _falls(v: float, a: float, c: float, d: float) -> bool:
     """Whether a / v + c v + d v^2 falls at v."""
     return bool((c + 2.0 * d * v) * v * v < a) if a != 0.0 else bool(c + 2.0 * d * v < 0.0)
 
 
-@compiled()
-def _minima(lows: Array, highs: Array, inverse: Array, constant: Array, slope: Array, square: Array) -> Array:
-    found = np.empty(len(lows))
+@compiled(error_model="numpy", _nrt=False)
+def _minima(found: Array, lows: Array, highs: Array, inverse: Array, constant: Array, slope: Array,
+            square: Array) -> None:
     for k in range(len(lows)):
         low, high, a, b, c, d = lows[k], highs[k], inverse[k], constant[k], slope[k], square[k]
         least = min(_value(low, a, b, c, d), _value(high, a, b, c, d))
@@ -253,7 +274,7 @@ def _minima(lows: Array, highs: Array, inverse: Array, constant: Array, slope: A
                 continue
             for _ in range(60):
                 middle = (one + two) / 2
-                if middle <= one or middle >= two:
+                if two - one <= CLOSE * two:
                     break
                 if _falls(middle, a, c, d):
                     one = middle
@@ -261,4 +282,3 @@ def _minima(lows: Array, highs: Array, inverse: Array, constant: Array, slope: A
                     two = middle
             least = min(least, _value((one + two) / 2, a, b, c, d))
         found[k] = least
-    return found

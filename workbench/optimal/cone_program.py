@@ -133,8 +133,11 @@ class ConeProgram:
         self._rows += rule.count
         return rule
 
-    def solve(self, cost: Array, what: str) -> Solution:
-        """Quickly first, then carefully; raises NoPlanError where neither way gives a solution."""
+    def solve(self, cost: Array, what: str, unit: float = 1.0) -> Solution:
+        """Quickly first, then carefully; raises NoPlanError where neither way gives a solution.
+
+        unit: of the cost that clarabel is given; how many iterations it takes hangs on it, the solution does not.
+        """
         blocks = [block for _, block in self._blocks]
         starts = np.insert(np.cumsum([len(block.constant) for block in blocks]), 0, 0)
         row = np.concatenate([block.row + start for block, start in zip(blocks, starts, strict=False)])
@@ -153,11 +156,11 @@ class ConeProgram:
         # Without refining each step's linear equations a program takes half the time; some then end inaccurately.
         for is_quick in (True, False):
             started = time.perf_counter()
-            answer = clarabel.DefaultSolver(sparse.csc_matrix((self.size, self.size)), cost,
-                                            matrix, right, cones, _settings(is_quick)).solve()
+            answer = clarabel.DefaultSolver(sparse.csc_matrix((self.size, self.size)), cost / unit,
+                                            matrix, right, cones, _settings(is_quick, unit)).solve()
             spent += time.perf_counter() - started
             status = str(answer.status)
-            found = Solution(np.asarray(answer.x), np.asarray(answer.z), float(answer.obj_val), status, spent)
+            found = Solution(np.asarray(answer.x), unit * np.asarray(answer.z), unit * answer.obj_val, status, spent)
             apart = abs(answer.obj_val - answer.obj_val_dual)
             if status == "Solved" or (status == "AlmostSolved" and apart <= NEAR * abs(answer.obj_val)):
                 return found
@@ -169,9 +172,9 @@ class ConeProgram:
         return almost
 
 
-def _settings(is_quick: bool) -> clarabel.DefaultSettings:
+def _settings(is_quick: bool, unit: float) -> clarabel.DefaultSettings:
     settings = clarabel.DefaultSettings()
     settings.verbose = False
-    settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = TOLERANCE
+    settings.tol_gap_abs, settings.tol_gap_rel, settings.tol_feas = TOLERANCE / unit, TOLERANCE, TOLERANCE
     settings.iterative_refinement_enable = not is_quick
     return settings

@@ -12,7 +12,13 @@ import numpy as np
 from workbench.compile.package_kernels import compiled
 from workbench.errors import WorkbenchError
 from workbench.optimal.course import Array, Course
-from workbench.optimal.force_limits import Limits, force_within
+from workbench.optimal.force_limits import (
+    Limits,
+    compiled_resistance,
+    device_limits,
+    force_within,
+    resistance_numbers,
+)
 from workbench.optimal.profile import Profile, largest_force
 from workbench.optimal.vehicle import Vehicle
 from workbench.trains.resistance import davis_resistance
@@ -27,8 +33,6 @@ PART_M, MOST_PARTS = 20.0, 100_000
 STRICT_ROUNDS, ROUNDING = 12, 5e-16
 # A cell on which the limit of the force changes by more than this share is divided, into so many at most.
 FINE, MOST_DIVIDED, SHORTEST_CELL_M = 1e-3, 16, 1e-2
-NO_TABLE = np.zeros((0, 2))
-compiled_resistance = compiled()(davis_resistance)
 
 
 class InfeasibleRunError(WorkbenchError):
@@ -42,7 +46,7 @@ class InfeasibleRunError(WorkbenchError):
         super().__init__(message)
 
 
-@compiled(error_model="numpy")
+@compiled(error_model="numpy", _nrt=False)
 def _slope(b: float, sign: float, line: float, drag: float, numbers: tuple[float, ...], limits: Limits,
            tables: tuple[Array, Array]) -> float:
     """db/ds with full traction (sign 1), or its negative with full brakes (sign -1), within the comfort limit."""
@@ -54,7 +58,7 @@ def _slope(b: float, sign: float, line: float, drag: float, numbers: tuple[float
     return float(min((force_within(limits[1], tables[1], v) + friction + resistance) / inertia, hardest))
 
 
-@compiled(error_model="numpy")
+@compiled(error_model="numpy", _nrt=False)
 def _least_force(limit: tuple[float, float], table: Array, slow: float, fast: float) -> float:
     """The least of the limit over speeds from slow to fast."""
     least = min(force_within(limit, table, slow), force_within(limit, table, fast))
@@ -64,7 +68,7 @@ def _least_force(limit: tuple[float, float], table: Array, slow: float, fast: fl
     return least
 
 
-@compiled(error_model="numpy")
+@compiled(error_model="numpy", _nrt=False)
 def _allowed(b: float, reached: float, sign: float, line: tuple[float, float], drag: tuple[float, float], share: float,
              numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array]) -> float:
     """What `_slope` allows at every point of a cell on which b changes linearly to `reached`."""
@@ -84,7 +88,7 @@ def _allowed(b: float, reached: float, sign: float, line: tuple[float, float], d
     return float(min((force + least) / inertia, hardest))
 
 
-@compiled(error_model="numpy")
+@compiled(error_model="numpy", _nrt=False)
 def _slope_in_parts(b: float, most: float, step: float, sign: float, line: Array, drag: Array,
                     numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array]) -> float:
     """The mean `_slope` of a cell, in parts of PART_M and never above `most`; what ends below 0 stands still.
@@ -105,15 +109,14 @@ def _slope_in_parts(b: float, most: float, step: float, sign: float, line: Array
     return (now - b) / step
 
 
-@compiled(error_model="numpy")
-def _pass(target: Array, start: float, step: Array, line: Array, drag: Array, usable: Array, stands: Array,
+@compiled(error_model="numpy", _nrt=False)
+def _pass(b: Array, target: Array, start: float, step: Array, line: Array, drag: Array, usable: Array, stands: Array,
           sign: float, numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array],
-          is_strict: bool) -> tuple[Array, int]:
-    """Largest b below the target that the limits allow, from the first node on; and where it cannot go on, or -1.
+          is_strict: bool) -> int:
+    """Lower b, a copy of the target, to the largest that the limits allow; where it cannot go on, or -1.
 
     Strictly at every point of each cell, else to the second order of its length.
     """
-    b = target.copy()
     b[0] = min(start, target[0])
     for k in range(len(step)):
         first = _slope(b[k], sign, line[k, 0], drag[k, 0], numbers, limits, tables)
@@ -132,21 +135,20 @@ def _pass(target: Array, start: float, step: Array, line: Array, drag: Array, us
                 slope = allowed - number * abs(slope - allowed)
         reached = b[k] + step[k] * slope
         if reached <= 0.0 and not (stands[k + 1] and reached > -1e-9):
-            return b, k
+            return k
         if is_strict:
             reached -= ROUNDING * max(b[k], reached)
         b[k + 1] = min(target[k + 1], reached)
-    return b, -1
+    return -1
 
 
-@compiled(error_model="numpy")
-def _run_up(target: Array, top: Array, end: float, more: float, step: Array, line: Array, drag: Array, sign: float,
-            numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array]) -> Array:
-    """The target, raised at the end to what full traction needs in order to reach `end`; below top everywhere.
+@compiled(error_model="numpy", _nrt=False)
+def _run_up(raised: Array, top: Array, end: float, more: float, step: Array, line: Array, drag: Array, sign: float,
+            numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array]) -> None:
+    """Raise a target at the end to what full traction needs in order to reach `end`; below top everywhere.
 
     With sign -1, and everything in the opposite order, to what full brakes need after a start at `end`.
     """
-    raised = target.copy()
     b = end * (1.0 + more)
     for k in range(len(step) - 1, -1, -1):
         raised[k + 1] = min(max(raised[k + 1], b), top[k + 1])
@@ -157,7 +159,6 @@ def _run_up(target: Array, top: Array, end: float, more: float, step: Array, lin
         b -= step[k] * slope
         if b <= 0.0 or (b <= raised[k] and slope > 0.0):
             break
-    return raised
 
 
 def drivable(vehicle: Vehicle, course: Course, target: Array, start_mps: float = 0.0, end_mps: float = 0.0,
@@ -180,25 +181,31 @@ def drivable(vehicle: Vehicle, course: Course, target: Array, start_mps: float =
     backwards = (step[::-1].copy(), course.force_n[::-1, ::-1].copy(), course.drag[::-1, ::-1].copy())
 
     def from_start(below: Array) -> tuple[Array, int]:
-        return _pass(below, start_mps**2 / 2, step, course.force_n, course.drag, usable[:, 0].copy(), stands, 1.0,
-                     numbers, limits, tables, is_strict)
+        b = below.copy()
+        return b, _pass(b, below, start_mps**2 / 2, step, course.force_n, course.drag, usable[:, 0].copy(), stands, 1.0,
+                        numbers, limits, tables, is_strict)
 
     most = np.where(stands, 0.0, _top(course)) if start_mps > 0 or end_mps > 0 else top
     for more_at_start in RUN_UPS if start_mps > 0 else RUN_UPS[:1]:
         aimed = top
         if start_mps > 0:
-            aimed = _run_up(top[::-1].copy(), most[::-1].copy(), start_mps**2 / 2, more_at_start, *backwards, -1.0,
-                            numbers, limits, tables)[::-1].copy()
+            aimed = top[::-1].copy()
+            _run_up(aimed, most[::-1].copy(), start_mps**2 / 2, more_at_start, *backwards, -1.0, numbers, limits,
+                    tables)
+            aimed = aimed[::-1].copy()
         for more in RUN_UPS if end_mps > 0 else RUN_UPS[:1]:
-            raised = aimed if end_mps == 0 else _run_up(aimed, most, end_mps**2 / 2, more, step, course.force_n,
-                                                        course.drag, 1.0, numbers, limits, tables)
+            raised = aimed.copy()
+            if end_mps > 0:
+                _run_up(raised, most, end_mps**2 / 2, more, step, course.force_n, course.drag, 1.0, numbers, limits,
+                        tables)
             forward, stuck = from_start(raised)
             if forward[-1] >= end_mps**2 / 2 * (1 - 1e-10):
                 break
         if stuck >= 0:
             raise InfeasibleRunError(_stall(vehicle, course, stuck))
-        found, stuck = _pass(forward[::-1].copy(), end_mps**2 / 2, *backwards, usable[::-1, 1].copy(),
-                             stands[::-1].copy(), -1.0, numbers, limits, tables, is_strict)
+        found = forward[::-1].copy()
+        stuck = _pass(found, found.copy(), end_mps**2 / 2, *backwards, usable[::-1, 1].copy(), stands[::-1].copy(),
+                      -1.0, numbers, limits, tables, is_strict)
         if stuck >= 0:
             raise InfeasibleRunError(_runaway(vehicle, course, len(step) - 1 - stuck))
         if found[-1] >= start_mps**2 / 2 * (1 - 1e-10):
@@ -245,19 +252,6 @@ def with_fine_cells(vehicle: Vehicle, course: Course, target: Array) -> Course:
     of = np.repeat(np.arange(len(more)), more)
     number = np.arange(1, len(of) + 1) - np.repeat(np.cumsum(more) - more, more)
     return course.split(x[of] + step[of] * number / (more[of] + 1))
-
-
-def resistance_numbers(vehicle: Vehicle) -> tuple[float, ...]:
-    """Inertia, Davis' numbers and the friction brake for compiled code, to which arrays are dearer than floats."""
-    return tuple(map(float, (vehicle.inertia_kg, *vehicle.davis_n, vehicle.friction_brake_n)))
-
-
-def device_limits(vehicle: Vehicle) -> tuple[Limits, tuple[Array, Array]]:
-    """Traction and electric brake for compiled code: (force, power) each, and the table of each, shape (k, 2)."""
-    both = (vehicle.traction, vehicle.regenerative)
-    pairs = [(float(limit.force_n), float(limit.power_w)) for limit in both]
-    tables = [np.array(limit.table, dtype=float) if limit.table else NO_TABLE for limit in both]
-    return (pairs[0], pairs[1]), (tables[0], tables[1])
 
 
 def _top(course: Course) -> Array:

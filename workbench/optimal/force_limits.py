@@ -1,15 +1,21 @@
-"""What traction and the electric brake give at a speed, for compiled code: force, power and a table of both."""
+"""What resists a train and what drives and brakes it at a speed, for compiled code."""
 
 from __future__ import annotations
 
+import numpy as np
+
 from workbench.compile.package_kernels import compiled
 from workbench.optimal.course import Array
+from workbench.optimal.vehicle import Vehicle
+from workbench.trains.resistance import davis_resistance
 
 # Force and power of traction and of the electric brake.
 Limits = tuple[tuple[float, float], tuple[float, float]]
+NO_TABLE = np.zeros((0, 2))
+compiled_resistance = compiled()(davis_resistance)
 
 
-@compiled(error_model="numpy")
+@compiled(error_model="numpy", _nrt=False)
 def force_in(table: Array, v: float) -> float:
     """A table's force at a speed, with the bits of np.interp, which makes arrays for it and takes long to compile."""
     low, high = 0, len(table) - 1
@@ -29,10 +35,23 @@ def force_in(table: Array, v: float) -> float:
     return float(slope * (v - table[low, 0]) + table[low, 1])
 
 
-@compiled(error_model="numpy")
+@compiled(error_model="numpy", _nrt=False)
 def force_within(limit: tuple[float, float], table: Array, v: float) -> float:
     """The least of force limit[0], power limit[1] and the table, at speed v."""
     force = limit[0] if v * limit[0] <= limit[1] else limit[1] / v
     if len(table):
         force = min(force, force_in(table, v))
     return float(force)
+
+
+def resistance_numbers(vehicle: Vehicle) -> tuple[float, ...]:
+    """Inertia, Davis' numbers and the friction brake for compiled code, to which arrays are dearer than floats."""
+    return tuple(map(float, (vehicle.inertia_kg, *vehicle.davis_n, vehicle.friction_brake_n)))
+
+
+def device_limits(vehicle: Vehicle) -> tuple[Limits, tuple[Array, Array]]:
+    """Traction and electric brake for compiled code: (force, power) each, and the table of each, shape (k, 2)."""
+    both = (vehicle.traction, vehicle.regenerative)
+    pairs = [(float(limit.force_n), float(limit.power_w)) for limit in both]
+    tables = [np.array(limit.table, dtype=float) if limit.table else NO_TABLE for limit in both]
+    return (pairs[0], pairs[1]), (tables[0], tables[1])

@@ -9,7 +9,6 @@ import numpy as np
 
 from workbench.optimal.adjoint import NEAR_FOR_RISES, NEAR_LIMIT, certificates_from, middles
 from workbench.optimal.best_forms import best_forms
-from workbench.optimal.bound import lower_bound
 from workbench.optimal.certificate import Certificate
 from workbench.optimal.course import Array
 from workbench.optimal.envelope import fastest
@@ -28,8 +27,6 @@ PARTS = 8
 # Shares of the trip time, and of the energy at the price of time, by which a drivable run may be off before the plan
 # itself is made again, so many times: to mix it with the fastest run costs more than its price.
 OFF, LATE, PLANS = 2e-5, 2e-4, 3
-# Below so many times the least time next to nothing of a program can be left out.
-TIGHT = 1.002
 # By which a run may be slower at a timing point than asked, m/s.
 SPEED_ERROR_MPS = 1e-6
 
@@ -67,15 +64,16 @@ class Planned:
     extra_s: Array
 
 
-def planned(asked: Asked, planner: Planner, grid: Grid, guess: Profile, near: float, *, is_last: bool,
-            known: Planned | None = None) -> Planned | None:
+def planned(asked: Asked, planner: Planner, grid: Grid, guess: Profile, near: float, enough: float = 0.0, *,
+            is_last: bool, known: Planned | None = None) -> Planned | None:
     """What comes of planning on a mesh; None where the solver found no plan.
 
     known: what came of it on this mesh for a train that may use more of its forces. Plans and bounds do not count on
     what a run keeps back, so that its plan is driven anew, and made anew only where that is off.
 
     Where the run is off, the plan is made again with what the run takes longer, or less where more time would save,
-    unless a finer mesh is to follow, because the plan's energy lies apart from its bound by more than the share `near`.
+    unless a finer mesh is to follow, because the plan's energy lies apart from its bound by more than the share `near`,
+    or the run in time takes no more than the share `enough` above the bound.
     """
     timetable = asked.timetable
     least = leg_times(timetable, asked.quickest)
@@ -101,13 +99,24 @@ def planned(asked: Asked, planner: Planner, grid: Grid, guess: Profile, near: fl
             break
         if now.sum() > (timetable.trip_time_s or np.inf) and _too_late(asked, profile):
             break
+        timed = _in_time(asked, profile, legs) if enough else None
+        if isinstance(timed, TimedRun) and timed.energy_j - first[3] <= enough * abs(timed.energy_j):
+            return Planned(first[0], first[1], timed, first[3], first[4], spent, first[2], plan, told)
         extra = extra + off - (early if is_early else 0.0)
     if first is None:
         return None
-    if legs is not None:
-        profile = fitted(asked.vehicle, profile, asked.quickest, timetable, legs, asked.start_mps, asked.end_mps)
-    timed = None if _too_slow(timetable, profile) else timed_run(asked.vehicle, timetable, profile)
+    timed = _in_time(asked, profile, legs)
     return Planned(first[0], first[1], timed, first[3], first[4], spent, first[2], plan, told)
+
+
+def _in_time(asked: Asked, profile: Profile, legs_s: Array | None) -> TimedRun | Miss | None:
+    """The run made to take what its timetable leaves its legs; None where it is too slow at a timing point."""
+    if legs_s is not None:
+        profile = fitted(asked.vehicle, profile, asked.quickest, asked.timetable, legs_s, asked.start_mps,
+                         asked.end_mps)
+    if _too_slow(asked.timetable, profile):
+        return None
+    return timed_run(asked.vehicle, asked.timetable, profile)
 
 
 def _too_late(asked: Asked, profile: Profile) -> bool:
@@ -127,9 +136,8 @@ def _best_bound(asked: Asked, plan: Plan) -> tuple[float, Certificate]:
     of_each = [certificates_from(asked.vehicle, plan, near) for near in NEAR_LIMIT]
     of_each.append(certificates_from(asked.vehicle, plan, NEAR_FOR_RISES, rises=True))
     forms = [form for same in zip(*of_each, strict=True) for form in same]  # of equals the first one is taken
-    given = asked.timetable, asked.start_mps, asked.end_mps
-    best = best_forms(asked.vehicle, plan.grid.course, forms, middles(plan), *given)
-    return lower_bound(asked.vehicle, plan.grid.course, best, *given), best
+    return best_forms(asked.vehicle, plan.grid.course, forms, middles(plan), asked.timetable, asked.start_mps,
+                      asked.end_mps)
 
 
 def _early(timetable: Timetable, now_s: Array) -> float:
@@ -146,9 +154,9 @@ def _driven(asked: Asked, plan: Plan, least_s: Array) -> tuple[Profile, Array, A
 
 def cone_plan(asked: Asked, grid: Grid, extra_s: Array, _: Profile) -> tuple[Plan, str]:
     """By the cone program."""
-    tight = (asked.timetable.trip_time_s or np.inf) < TIGHT * asked.quickest.trip_time_s
+    spare = (asked.timetable.trip_time_s or np.inf) / asked.quickest.trip_time_s - 1
     return solve_socp(asked.vehicle, grid, asked.timetable, asked.start_mps, asked.end_mps, extra_s,
-                      whole=tight), "clarabel"
+                      spare=spare), "clarabel"
 
 
 def nonlinear_plan(asked: Asked, grid: Grid, extra_s: Array, guess: Profile) -> tuple[Plan, str]:

@@ -7,9 +7,10 @@ from functools import cached_property
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
-from numpy.typing import NDArray
 
+from workbench.compile.package_kernels import compiled
 from workbench.optimal.course import Array, Course
+from workbench.optimal.force_limits import Limits, compiled_resistance, device_limits, force_within, resistance_numbers
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 from workbench.trains.resistance import davis_resistance
 
@@ -87,18 +88,18 @@ def largest_force(limit: ForceLimit, speed_mps: Array) -> Array:
     return np.asarray(force, dtype=float)
 
 
-def forces(vehicle: Vehicle, profile: Profile, within: Array = WITHIN, cells: NDArray[np.intp] | None = None) -> Forces:
+def forces(vehicle: Vehicle, profile: Profile, within: Array = WITHIN) -> Forces:
     """What the run needs at the wheel; what electric braking cannot give is left to friction.
 
-    within: the points of each cell, from 0 to 1; cells: of which cells, by their numbers, else of all.
+    within: the points of each cell, from 0 to 1.
     """
-    course, b, of = profile.course, profile.half_square, slice(None) if cells is None else cells
-    along = b[:-1][of, None] + within * np.diff(b)[of, None]
+    course, b = profile.course, profile.half_square
+    along = b[:-1, None] + within * np.diff(b)[:, None]
     speed = np.sqrt(2 * along)
     a, b_1, c = vehicle.davis_n
-    line = course.force_n[of, :1] + within * np.diff(course.force_n[of])
-    drag = course.drag[of, :1] + within * np.diff(course.drag[of])
-    needed = vehicle.inertia_kg * profile.acceleration_mps2[of, None] + davis_resistance(
+    line = course.force_n[:, :1] + within * np.diff(course.force_n)
+    drag = course.drag[:, :1] + within * np.diff(course.drag)
+    needed = vehicle.inertia_kg * profile.acceleration_mps2[:, None] + davis_resistance(
         speed, a, b_1, c + drag) + line
     traction, braking = np.maximum(needed, 0.0), np.maximum(-needed, 0.0)
     regenerative = np.minimum(braking, largest_force(vehicle.regenerative, speed))
@@ -116,23 +117,46 @@ def energy_j(vehicle: Vehicle, profile: Profile) -> float:
 
 def cell_energy_j(vehicle: Vehicle, profile: Profile) -> Array:
     """Energy at the supply on each cell without auxiliaries, shape (n,)."""
-    length = np.diff(profile.position_m)
-    found = length * (_supplied_n(vehicle, forces(vehicle, profile)) @ WEIGHT)
-    if len(kinked := np.flatnonzero(_kinked(vehicle, profile))):
-        in_parts = forces(vehicle, profile, IN_PARTS, kinked)
-        found[kinked] = length[kinked] * (_supplied_n(vehicle, in_parts) @ PART_WEIGHT)
-    return np.asarray(found)
+    found, course = np.empty(len(profile.half_square) - 1), profile.course
+    _cell_energies(found, course.position_m, profile.half_square, course.force_n, course.drag,
+                   (*resistance_numbers(vehicle)[:4], vehicle.traction_efficiency, vehicle.regenerative_efficiency),
+                   *device_limits(vehicle), (WITHIN, WEIGHT), (IN_PARTS, PART_WEIGHT))
+    return found
 
 
-def _supplied_n(vehicle: Vehicle, found: Forces) -> Array:
-    """Energy at the supply for each metre, J/m."""
-    return found.traction_n / vehicle.traction_efficiency - vehicle.regenerative_efficiency * found.regenerative_n
+@compiled(error_model="numpy", _nrt=False)
+def _needed(share: float, b: tuple[float, float], line: tuple[float, float], drag: tuple[float, float],
+            numbers: tuple[float, ...]) -> tuple[float, float]:
+    """Speed and force at the wheel at a share of a cell, with b, the line's force and the drag at both of its ends; and
+    numbers the inertia times the acceleration, and Davis'."""
+    push, a, b_1, c = numbers
+    speed = np.sqrt(2.0 * (b[0] + share * (b[1] - b[0])))
+    resistance = compiled_resistance(speed, a, b_1, c + (drag[0] + share * (drag[1] - drag[0])))
+    return speed, push + resistance + (line[0] + share * (line[1] - line[0]))
 
 
-def _kinked(vehicle: Vehicle, profile: Profile) -> NDArray[np.bool_]:
-    """The cells at whose ends and middle not all forces that act are the same ones."""
-    found = forces(vehicle, profile, np.array([0.0, 0.5, 1.0]))
-    kinked = np.zeros(len(found.traction_n), dtype=bool)
-    for acts in (found.traction_n > 0, found.friction_n > 0):
-        kinked |= acts.any(axis=1) & ~acts.all(axis=1)
-    return kinked
+@compiled(error_model="numpy", _nrt=False)
+def _cell_energies(found: Array, position: Array, half_square: Array, line: Array, drag: Array,
+                   numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array],
+                   whole: tuple[Array, Array], parts: tuple[Array, Array]) -> None:
+    """Fill in the energy of each cell, J. whole, parts: points and weights of a quadrature, for cells at whose ends and
+    middle the same forces act, and for the others."""
+    inertia, a, b_1, c, efficiency, regain = numbers
+    for k in range(len(found)):
+        step = position[k + 1] - position[k]
+        b, force, tunnel = (half_square[k], half_square[k + 1]), (line[k, 0], line[k, 1]), (drag[k, 0], drag[k, 1])
+        resisted = (inertia * ((b[1] - b[0]) / step), a, b_1, c)
+        pulls, rubs = 0, 0
+        for point in range(3):
+            speed, needed = _needed(0.5 * point, b, force, tunnel, resisted)
+            pulls += needed > 0.0
+            rubs += needed < 0.0 and -needed > force_within(limits[1], tables[1], speed)
+        points, weights = parts if 0 < pulls < 3 or 0 < rubs < 3 else whole
+        total = 0.0
+        for point in range(len(points)):
+            speed, needed = _needed(points[point], b, force, tunnel, resisted)
+            supplied = needed / efficiency
+            if not needed > 0.0:
+                supplied = -regain * min(-needed, force_within(limits[1], tables[1], speed))
+            total += supplied * weights[point]
+        found[k] = step * total

@@ -230,8 +230,9 @@ def _rounds(asked: Asked, planner: Planner, grid: Grid, best: _Found, rounds: in
     number = failures = 0
     while number < rounds:
         before = best.gap
+        enough = GAP_OF_CONES if best.tight or number else GAP_WANTED
         found = planned(asked, planner, grid, best.run.profile if best.run else asked.quickest, GAP_OF_CONES,
-                        is_last=number == rounds - 1, known=known)
+                        0.0 if rounds == 1 else enough, is_last=number == rounds - 1, known=known)
         if found is None:
             failures += 1
             if best.solver != FASTEST or failures == FAILURES or rounds == 1:
@@ -243,7 +244,7 @@ def _rounds(asked: Asked, planner: Planner, grid: Grid, best: _Found, rounds: in
         best = best.improved(found)
         # A plan that takes less than is proven of every run is one that cones allow and the train does not.
         loose = found.bound_j - found.plan.energy_j > GAP_OF_CONES * abs(found.plan.energy_j)
-        if best.gap <= (GAP_OF_CONES if best.tight or number else GAP_WANTED) or loose or (
+        if best.gap <= enough or loose or (
                 number and best.gap > NO_GAIN * before and best.run):
             break
         number += 1

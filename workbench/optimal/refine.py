@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 
 from workbench.compile.package_kernels import compiled
 from workbench.optimal.course import Array, Course
-from workbench.optimal.envelope import (
+from workbench.optimal.envelope import drivable, with_fine_cells
+from workbench.optimal.force_limits import (
+    Limits,
     compiled_resistance,
     device_limits,
-    drivable,
+    force_within,
     resistance_numbers,
-    with_fine_cells,
 )
-from workbench.optimal.force_limits import Limits, force_within
 from workbench.optimal.profile import Profile, largest_force
 from workbench.optimal.socp import Plan
 from workbench.optimal.vehicle import Vehicle
@@ -63,7 +63,8 @@ def _target(vehicle: Vehicle, plan: Plan, course: Course) -> Array:
     s, b_plan = plan.grid.position_m, plan.half_square
     owner = np.searchsorted(s, (x[1:] + x[:-1]) / 2) - 1
     first = np.searchsorted(x, s)
-    b = _followed(x, course.force_n, course.drag, first, b_plan, plan.force_n, resistance_numbers(vehicle),
+    b = np.empty(len(x))
+    _followed(b, x, course.force_n, course.drag, first, b_plan, plan.force_n, resistance_numbers(vehicle),
                   *device_limits(vehicle))
     missed = b_plan[1:] - b[first[1:]]
     share = (x[1:] - s[owner]) / (s[owner + 1] - s[owner])
@@ -98,14 +99,13 @@ def _held(vehicle: Vehicle, plan: Plan, course: Course, owner: NDArray[np.intp])
     return np.asarray(at_top & ((least >= 0) | (most <= 0)))
 
 
-@compiled(error_model="numpy")
-def _followed(x: Array, line: Array, drag: Array, first: NDArray[np.intp], b_plan: Array, planned: Array,
-              numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array]) -> Array:
-    """Half the squared speed at x, where each interval is driven from the plan's speed at its start on.
+@compiled(error_model="numpy", _nrt=False)
+def _followed(b: Array, x: Array, line: Array, drag: Array, first: NDArray[np.intp], b_plan: Array, planned: Array,
+              numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array]) -> None:
+    """Fill b with half the squared speed at x, where each interval is driven from the plan's speed at its start on.
 
     first: where the plan's nodes are in x; planned: its forces, N.
     """
-    b = np.empty(len(x))
     b[0] = b_plan[0]
     for k in range(len(planned)):
         mean_speed = np.sqrt(b_plan[k] + b_plan[k + 1])
@@ -119,10 +119,9 @@ def _followed(x: Array, line: Array, drag: Array, first: NDArray[np.intp], b_pla
                            planned[k], at_mean, numbers, limits, tables)
             now += width * slope
             b[cell + 1] = now
-    return b
 
 
-@compiled(error_model="numpy")
+@compiled(error_model="numpy", _nrt=False)
 def _slope(b: float, line: float, drag: float, planned: float, at_mean: tuple[float, float], numbers: tuple[float, ...],
            limits: Limits, tables: tuple[Array, Array]) -> float:
     """db/ds under the plan's force, or under the limit where the plan is at it.

@@ -9,6 +9,7 @@ power x time.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,11 @@ from workbench.optimal.vehicle import ForceLimit, Vehicle
 # From so many intervals on a coarser program comes first. A program of which it leaves more than this share open is
 # solved whole: near the least time next to nothing can be left out, and what was would be needed after all.
 COARSE_FIRST, MOSTLY_OPEN = 2000, 0.5
+# With less than this share of the least time to spare next to nothing of a program can be left out.
+TIGHT = 0.002
+# An interval's share of the energy has about this unit, by which clarabel takes the fewest iterations; near the least
+# time, where seconds are dear, a larger one. The lower and upper limit were measured, and so was the rise between them.
+UNIT_SHARES, UNIT_RISE = (1 / 40, 1 / 3), 20 / 3
 # A plan keeps this far above a least speed, so that the driven run, which may be a little slower, does.
 LEAST_MARGIN = 1.0001
 
@@ -54,7 +60,7 @@ class Plan:
         """What a second less on the way to the end costs, auxiliaries included."""
         return float(self.prices_w[-1]) + self.auxiliary_w
 
-    @property
+    @cached_property
     def interval_prices_w(self) -> Array:
         """What a second less costs on each interval, auxiliaries included, shape (n,)."""
         drawn = counted(self.auxiliary_w)
@@ -62,31 +68,38 @@ class Plan:
 
 
 def solve_socp(vehicle: Vehicle, grid: Grid, asked: Timetable | float, start_mps: float = 0.0,
-               end_mps: float = 0.0, extra_s: Array | None = None, *, whole: bool = False) -> Plan:
+               end_mps: float = 0.0, extra_s: Array | None = None, *, spare: float = np.inf) -> Plan:
     """The run of least energy in a timetable or a trip time in s; raises NoPlanError where clarabel finds none.
 
     extra_s: seconds that each leg between timing points takes beyond what the program knows; none where not given.
-    A large program is solved on a coarser mesh first, and then without what that leaves no use for, unless `whole`.
+    spare: by which share of the least time more is allowed, as far as that is known. A large program is solved on a
+    coarser mesh first, and then without what that leaves no use for, unless next to nothing is spare.
     """
     ends, spent = (start_mps, end_mps), 0.0
-    if len(grid.limit_mps) >= COARSE_FIRST and not whole:
+    unit = cost_unit(grid, spare)
+    if len(grid.limit_mps) >= COARSE_FIRST and spare >= TIGHT:
         try:
-            coarse, price = _solve(vehicle, thinned(grid), asked, ends, extra_s=extra_s)
+            coarse, price = _solve(vehicle, thinned(grid), asked, ends, extra_s=extra_s, unit=unit)
             spent = coarse.solve_s
             rows = open_rows(vehicle, grid, coarse.grid, coarse.half_square, coarse.force_n, price)
             if rows.share <= MOSTLY_OPEN:
-                plan, price = _solve(vehicle, grid, asked, ends, rows, extra_s)
+                plan, price = _solve(vehicle, grid, asked, ends, rows, extra_s, unit)
                 spent += plan.solve_s
                 if rightly_closed(vehicle, grid, rows, plan.half_square, plan.force_n, price):
                     return replace(plan, solve_s=spent)
         except NoPlanError:
             pass  # the whole program says whether there is none
-    plan, _ = _solve(vehicle, grid, asked, ends, extra_s=extra_s)
+    plan, _ = _solve(vehicle, grid, asked, ends, extra_s=extra_s, unit=unit)
     return replace(plan, solve_s=spent + plan.solve_s)
 
 
+def cost_unit(grid: Grid, spare: float = np.inf) -> float:
+    """The unit of the cost, as a share of the largest force over the whole way, for so much time to `spare`."""
+    return 1 / (len(grid.limit_mps) * float(np.clip(UNIT_RISE * spare, *UNIT_SHARES)))
+
+
 def _solve(vehicle: Vehicle, grid: Grid, asked: Timetable | float, ends_mps: tuple[float, float],
-           rows: OpenRows | None = None, extra_s: Array | None = None) -> tuple[Plan, Array]:
+           rows: OpenRows | None = None, extra_s: Array | None = None, unit: float = 1.0) -> tuple[Plan, Array]:
     """The plan, and what a newton more at the wheel is worth on each interval, J/m per N."""
     h, n = grid.step_m, len(grid.limit_mps)
     rows = rows or all_open(grid)
@@ -141,7 +154,7 @@ def _solve(vehicle: Vehicle, grid: Grid, asked: Timetable | float, ends_mps: tup
     returned = vehicle.regenerative_efficiency * program.factors(brake, h)
     drawn = vehicle.auxiliary_w * mean_time / work * clock.between_ends(program, tau, wait)
     found = program.solve((used - returned) / grid.course.length_m + drawn,
-                          f"the cone program of {n} intervals for {clock.horizon_s:g} s")
+                          f"the cone program of {n} intervals for {clock.horizon_s:g} s", unit)
     price = row * found.price(motion) * work / (force * h)
     # Limits of the acceleration act on db/ds itself: they belong to the price of what changes b.
     adjoint = price

@@ -15,8 +15,7 @@ import numpy as np
 
 from workbench.compile.package_kernels import compiled
 from workbench.optimal.course import Array
-from workbench.optimal.envelope import compiled_resistance, device_limits, resistance_numbers
-from workbench.optimal.force_limits import Limits, force_in
+from workbench.optimal.force_limits import Limits, compiled_resistance, device_limits, force_in, resistance_numbers
 from workbench.optimal.profile import Profile
 from workbench.optimal.vehicle import Vehicle
 
@@ -55,14 +54,14 @@ class Check:
         return np.asarray(profile.time_s + np.where(moving, self.lag_m / np.where(moving, speed, 1.0), 0.0))
 
 
-@compiled(error_model="numpy")
+@compiled(error_model="numpy", _nrt=False)
 def _against(speed: float, share: float, cell: int, line: Array, drag: Array, a: float, b: float, c: float) -> float:
     """What slows the train down at a share of a cell, N: resistance, tunnel and line."""
     tunnel = drag[cell, 0] + share * (drag[cell, 1] - drag[cell, 0])
     return float(compiled_resistance(speed, a, b, c + tunnel) + line[cell, 0] + share * (line[cell, 1] - line[cell, 0]))
 
 
-@compiled(error_model="numpy")
+@compiled(error_model="numpy", _nrt=False)
 def device_forces(v: float, limits: Limits, tables: tuple[Array, Array]) -> tuple[float, float]:
     """What traction and the electric brake give at a speed, N."""
     most = limits[0][0] if v * limits[0][0] <= limits[0][1] else limits[0][1] / v
@@ -74,10 +73,10 @@ def device_forces(v: float, limits: Limits, tables: tuple[Array, Array]) -> tupl
     return most, brake
 
 
-@compiled(error_model="numpy")
+@compiled(error_model="numpy", _nrt=False)
 def _drive(time: Array, position: Array, speed: Array, acceleration: Array, limit: Array, line: Array, drag: Array,
            numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array],
-           step_s: float, lag: Array) -> tuple[float, float, float, float, float, float]:
+           step_s: float, lag: Array, slope: Array) -> tuple[float, float, float, float, float, float]:
     """Energy without auxiliaries, drift of position and speed, excess of force and speed, largest correction.
 
     The arrays are those of a profile; `lag` is filled with the way that is missing at each node.
@@ -85,7 +84,6 @@ def _drive(time: Array, position: Array, speed: Array, acceleration: Array, limi
     inertia, a, b, c, friction, efficiency, regain = numbers
     s, v = position[0], speed[0]
     energy, off_s, off_v, over_force, over_speed, corrected = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    slope = np.empty((4, 2))
     v_plan, s_plan, planned = v, s, 0.0
     cell = 0
     for k in range(len(acceleration)):
@@ -139,7 +137,7 @@ def _drive(time: Array, position: Array, speed: Array, acceleration: Array, limi
     return energy, off_s, off_v, over_force, over_speed, corrected
 
 
-def check(vehicle: Vehicle, profile: Profile, step_s: float = 0.05) -> Check:
+def check(vehicle: Vehicle, profile: Profile, step_s: float = 0.1) -> Check:
     """Drive the run's force over time in steps of at most step_s, aligned with its cells."""
     numbers = (*resistance_numbers(vehicle), float(vehicle.traction_efficiency), float(vehicle.regenerative_efficiency))
     limits, tables = device_limits(vehicle)
@@ -147,6 +145,6 @@ def check(vehicle: Vehicle, profile: Profile, step_s: float = 0.05) -> Check:
     lag = np.zeros(len(profile.half_square))
     energy, off_s, off_v, force, speed, push = _drive(
         profile.time_s, profile.position_m, profile.speed_mps, profile.acceleration_mps2, course.limit_mps,
-        course.force_n, course.drag, numbers, limits, tables, step_s, lag)
+        course.force_n, course.drag, numbers, limits, tables, step_s, lag, np.empty((4, 2)))
     return Check(energy + vehicle.auxiliary_w * profile.trip_time_s, off_s, off_v, max(force, 0.0),
                  max(speed, 0.0) if math.isfinite(speed) else math.inf, push, lag)

@@ -8,8 +8,7 @@ import numpy as np
 
 from workbench.compile.package_kernels import compiled
 from workbench.optimal.course import Array, Course
-from workbench.optimal.envelope import compiled_resistance, device_limits, resistance_numbers
-from workbench.optimal.force_limits import Limits
+from workbench.optimal.force_limits import Limits, compiled_resistance, device_limits, resistance_numbers
 from workbench.optimal.smooth_run import SmoothRun
 from workbench.optimal.vehicle import Vehicle
 from workbench.optimal.verify import POSITION_GAIN, SPEED_GAIN, device_forces
