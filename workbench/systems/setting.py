@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from workbench.systems.law import Reference
 from workbench.systems.metric import Metric
 from workbench.systems.plant import Plant
-from workbench.systems.signals import AnySignal, Constant, signal_of
+from workbench.systems.signals import AnySignal, Constant, Step, signal_of
 from workbench.systems.symbols import (
     CLOCK,
     is_finite,
@@ -90,6 +90,7 @@ class Setting:
                          f"references of plant '{plant.id}'")
         for name, value in self.delay_s.items():
             self.steps_of(value, f"delay_s.{name}")
+        self._check_jumps()
         for name, channel in self.tracks.items():
             if channel not in self.references:
                 raise ValueError(f"tracks.{name} = '{channel}' is no reference: state references.{channel}")
@@ -131,6 +132,13 @@ class Setting:
                                      "give less, or a longer duration_s")
         if not isinstance(self.seed, int | np.integer) or isinstance(self.seed, bool) or self.seed < 0:
             raise ValueError(f"seed = {self.seed!r}: give a whole number that is not negative")
+
+    def _check_jumps(self) -> None:
+        """ValueError for a jump within a step of a continuous plant: it would come with the next step, unasked."""
+        for key in ("references", "disturbances") if not self.plant.updates else ():
+            for name, signal in getattr(self, key).items():
+                if isinstance(signal, Step) and 0 < signal.at_s < self.duration_s:
+                    self.steps_of(signal.at_s, f"{key}.{name}: at_s")
 
     def _step(self) -> float:
         own = self.plant.step_s

@@ -28,6 +28,7 @@ Array = NDArray[np.float64]
 POLYNOMIAL, STEP, SINE, SPLINE = 0.0, 1.0, 2.0, 3.0
 WIDTH = 7
 MOST_ROWS = 100_000
+JUMPS_BEFORE = 1e-9  # s: what rounding may take from a sample's time; the compiled loop allows the same
 
 
 class _Signal(Record):
@@ -201,7 +202,7 @@ def _at(signal: AnySignal, t: Array) -> Array:
         case Ramp(offset=offset, slope_per_s=slope):
             return np.array([offset + slope * t, zero + slope, zero, zero])
         case Step(before=before, after=after, at_s=at):
-            return np.array([np.where(t < at, before, after), zero, zero, zero])
+            return np.array([np.where(t + JUMPS_BEFORE < at, before, after), zero, zero, zero])
         case Sine(offset=offset, amplitude=a, period_s=period, phase_rad=phase):
             w = 2 * math.pi / period
             angle = w * t + phase
