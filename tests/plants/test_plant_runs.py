@@ -197,7 +197,7 @@ def test_a_stiff_plant_is_moved_by_a_library_solver_where_fixed_steps_diverge():
     ({"delay_s": {"tau": 1.5e-4}}, "no whole number of plant steps"), ({"parameters": {"mm": 1.0}}, "no parameter"),
     ({"integrator": "euler"}, "not known"), ({"metrics": (Metric("m", "mean", q),)}, "not declared"),
     ({"disturbances": {"w": Constant(value=1.0)}}, "no disturbance"),
-    ({"references": {"r": Step(after=1.0, at_s=2.5e-3)}}, "references.r: at_s = 0.0025 s is no whole number of plant st"),
+    ({"references": {"r": Step(after=1.0, at_s=2.5e-3)}}, "references.r: at_s = 0.0025 s is no whole number"),
     ({"seed": -1}, "seed = -1: give a whole number that is not negative"), ({"seed": 0.5}, "seed = 0.5")])
 def test_what_is_no_setting_is_one_line(changes, words):
     with pytest.raises(ValueError, match=words):

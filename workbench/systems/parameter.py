@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
+from workbench.systems.declared import contradicted
 from workbench.systems.symbols import Limits, interval, plain, symbols_of
 
 
@@ -37,7 +38,7 @@ class Parameter:
 
 
 def checked_value(symbol: sp.Symbol, value: Any, where: str) -> float:
-    """A finite number that agrees with what sympy knows of the symbol's sign; ValueError otherwise."""
+    """A finite number that is what the symbol is declared; ValueError otherwise."""
     value = plain(value)
     if isinstance(value, bool | complex | str) or not isinstance(value, int | float | np.number):
         raise ValueError(f"{where} = {value!r} is no real number: give one")
@@ -47,7 +48,6 @@ def checked_value(symbol: sp.Symbol, value: Any, where: str) -> float:
         number = math.inf
     if not math.isfinite(number):
         raise ValueError(f"{where} = {number} is not finite: give a number")
-    if (symbol.is_positive and number <= 0) or (symbol.is_nonnegative and number < 0):
-        raise ValueError(f"{where} = {number:g}, but the symbol is declared "
-                         f"{'positive' if symbol.is_positive else 'nonnegative'}: correct one of them")
+    if kind := contradicted(symbol, number):
+        raise ValueError(f"{where} = {number:g}, but the symbol is declared {kind}: correct one of them")
     return number

@@ -17,6 +17,7 @@ from workbench.simulate.plants.measures import metrics_of
 from workbench.simulate.plants.plant_loop import LAW_OUTSIDE, NO_COMMAND, RUNNING
 from workbench.simulate.plants.solver import advance_by_solver
 from workbench.systems.law import StateLaw
+from workbench.systems.parameter import checked_value
 from workbench.systems.setting import Setting, limits_of
 from workbench.systems.symbols import is_finite, plain
 
@@ -73,11 +74,12 @@ class Entrant:
                     raise ValueError(f"law '{self.law.id}': its state '{symbol}' has the name of a reference: rename "
                                      "one")
             self.law.values(setting.plant, setting.plant.values(), self.parameters)
-            names = [*map(str, self.law.state_symbols)]
-            for name in self.initial:
+            names = {str(symbol): symbol for symbol in self.law.state_symbols}
+            for name, value in self.initial.items():
                 if name not in names:
                     raise ValueError(f"initial value of '{name}', which is no state of law '{self.law.id}': name "
                                      f"one of {', '.join(names) or 'none'}")
+                checked_value(names[name], value, f"initial value of '{name}'")
 
 
 @dataclass(frozen=True)
