@@ -27,6 +27,7 @@ def ran(plant, law=None, duration_s=1.0, **more):
     (lambda: ran(FALLING, initial={"h": -1}), "initial.h = -1, but the symbol is declared positive"),
     (lambda: wb.Plant("p", (x,), (p,), (p,)), "input 'p' is declared positive or zero, which its limits do not keep"),
     (lambda: wb.Plant("p", (x,), (n,), (n,), input_limits={n: (-1, 1)}), "input 'n' is declared negative or zero"),
+    (lambda: wb.Plant("p", (x,), (u,), (u,), outputs={p: x}), "output 'p' is declared to be nonnegative, and x is not"),
     (lambda: wb.Plant("p", (x,), (whole,), (whole,)), "'N' is declared integer, and nothing keeps it whole"),
     (lambda: wb.Plant("p", (whole,), (-whole,)), "'N' is declared integer"),
     (lambda: ran(DRAWN, disturbances={"q": wb.Sine(offset=1, amplitude=2, period_s=1)}),
@@ -54,6 +55,7 @@ def test_signs_that_are_kept_run():
     assert ran(PUSHED, wb.Law("l", {p: -1})).metrics["p_rms"] == 0.0
     assert np.ptp(ran(DRAWN)["x"]) == 0.0
     assert ran(wb.Plant("mode", (x, whole), (whole, 0)), initial={"N": 2})["x"][-1] == pytest.approx(2.0)
+    assert ran(wb.Plant("squared", (x,), (1,), outputs={p: 1 + x**2})).failed is None
     rises = ran(wb.Plant("rises", (h,), (1 - h,)))
     assert rises.failed is None
     assert rises["h"][-1] == pytest.approx(1 - np.exp(-1), rel=1e-8)

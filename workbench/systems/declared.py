@@ -49,3 +49,12 @@ def require_no_whole(symbols: Iterable[sp.Symbol], where: str) -> None:
         if symbol.is_integer:
             raise ValueError(f"{where}: '{symbol}' is declared integer, and nothing keeps it whole: declare it with "
                              "real=True")
+
+
+def require_outputs_signed(outputs: Mapping[sp.Symbol, sp.Expr], where: str) -> None:
+    """ValueError for an output with a sign that its expression is not known to have."""
+    for symbol, value in outputs.items():
+        for kind in ("nonnegative", "nonpositive"):
+            if getattr(symbol, f"is_{kind}") and not getattr(value, f"is_{kind}"):
+                raise ValueError(f"{where}: output '{symbol}' is declared to be {kind}, and {value} is not known to "
+                                 "be: declare it with real=True, or what it is made of with the sign")
