@@ -8,6 +8,8 @@ import pytest
 import sympy as sp
 
 import workbench as wb
+from workbench.errors import InputError
+from workbench.paper.new_paper import write_new_paper
 
 x, v, u = sp.symbols("x v u", real=True)
 r = wb.Reference("r")
@@ -117,3 +119,18 @@ def test_an_input_begins_within_its_limits_or_is_refused() -> None:
     assert wb.simulate(bounded, law, **run).to_pandas()["u"].iloc[0] == 1
     with pytest.raises(ValueError, match=r"initial\.u = 99 is outside the input's limits, 1 to 5: give a value within"):
         wb.simulate(bounded, law, initial={u: 99}, **run)
+
+
+@pytest.mark.parametrize(("old", "new", "told"), [
+    ("reference.x_d", "reference.y_d", "tracks.x = 'x_d' is no reference: state reference.x_d$"),
+    ("at_s = 5.0", "at_s = 5.0004", r"study.toml: disturbance.d: at_s = 5.0004 s is no whole number"),
+    ("tracks =", "actuators.delay_s = { u = 0.0005 }\ntracks =", "study.toml: actuators.delay_s.u = 0.0005 s is no"),
+    ("tracks =", "sensing.noise = { z = 0.1 }\ntracks =", "study.toml: sensing.noise.z: plant 'mine2026.mass' has no")])
+def test_a_mistake_in_a_file_is_told_by_the_keys_of_files(tmp_path: Path, old: str, new: str, told: str) -> None:
+    """A setting of Python has references, a file reference: who stated what was asked for was refused once more."""
+    folder = write_new_paper("mine2026", tmp_path, "plant")
+    study = folder / "study.toml"
+    assert old in study.read_text()
+    study.write_text(study.read_text().replace(old, new))
+    with pytest.raises(InputError, match=told):
+        wb.load(folder)

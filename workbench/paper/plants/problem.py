@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
@@ -24,6 +25,15 @@ from workbench.systems.setting import UNSTATED, Setting
 from workbench.systems.signals import read_signal
 
 TUNED = " (tuned)"
+# What a setting of Python calls otherwise than a study's file does.
+KEYS = {"references": "reference", "disturbances": "disturbance", "noise": "sensing.noise", "late_s": "sensing.late_s",
+        "seed": "sensing.seed", "lag_s": "actuators.lag_s", "delay_s": "actuators.delay_s", "step_s": "plant_step_s"}
+AS_KEY = re.compile(rf"(?<![\w.])({'|'.join(KEYS)})(?=\.\w| = )")
+
+
+def _as_in_file(trouble: ValueError) -> str:
+    """What does not fit, by the keys of a file: a setting's `references.x` is no key there."""
+    return AS_KEY.sub(lambda found: KEYS[found[0]], str(trouble))
 
 
 class LocatedPlantStudy(PlantStudy):
@@ -59,7 +69,7 @@ class LocatedPlantStudy(PlantStudy):
                 self.actuators.lag_s, self.actuators.delay_s, tuple({m.id: m for m in metrics}.values()),
                 self.sensing.seed, self.integrator)
         except ValueError as trouble:
-            raise InputError(self.file, "", str(trouble)) from None
+            raise InputError(self.file, "", _as_in_file(trouble)) from None
 
     def law(self, name: str) -> StateLaw:
         """A law by the name that the file gives it; InputError with the names there are."""
@@ -91,7 +101,7 @@ class LocatedPlantStudy(PlantStudy):
                 made = Entrant(shown or name, entry.period_s, build=how.build)
             made.check(self.setting)
         except ValueError as trouble:
-            raise InputError(self.file, f"controllers.{name}", str(trouble)) from None
+            raise InputError(self.file, f"controllers.{name}", _as_in_file(trouble)) from None
         return made
 
     def entrants(self) -> dict[str, Entrant]:
