@@ -50,6 +50,7 @@ def test_a_ball_bounces_when_and_as_high_as_the_closed_form_says():
     speeds = speed * 0.8 ** np.arange(1, len(times) + 1)
     assert [one.states[1] for one in found.events] == pytest.approx(speeds, abs=1e-8)
     assert found.metrics["energy"] == pytest.approx(9.81 * 0.64 ** len(times), rel=1e-8)
+    assert wb.Run(wb.Setting(PLANT, 3.0), found).events == found.events
     assert found.metrics["fastest"] == pytest.approx(speed, rel=1e-10) and abs(found.metrics["deepest"]) < 1e-9
 
 

@@ -8,6 +8,8 @@ import pytest
 import sympy as sp
 
 import workbench as wb
+from workbench.errors import InputError
+from workbench.paper.new_paper import write_new_paper
 
 x, v, u = sp.symbols("x v u", real=True)
 r = wb.Reference("r")

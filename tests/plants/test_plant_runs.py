@@ -17,7 +17,7 @@ from workbench.systems.law import Reference, StateLaw
 from workbench.systems.metric import Metric
 from workbench.systems.plant import Parameter, Plant
 from workbench.systems.setting import Setting
-from workbench.systems.signals import Constant, Ramp, Sine, Spline, Step
+from workbench.systems.signals import Constant, Ramp, Sine, Spline, Step, signals_at
 
 q = sp.Symbol("q", real=True)
 
@@ -137,6 +137,15 @@ def test_a_step_acts_from_its_instant_on_and_limits_hold():
     assert found.metrics["x_limit_excess"] == pytest.approx(0.5, abs=1e-12)
 
 
+def test_who_looks_ahead_sees_a_step_at_its_sample_whatever_rounding_says():
+    """43 samples of 0.1 s and one more are 4.3999999999999995 s, and a step at 4.4 s was seen a sample late there."""
+    for count, period_s, ahead in ((43, 0.1, 1), (86, 0.05, 2)):
+        t = count * period_s + period_s * ahead
+        assert t < 4.4
+        assert signals_at({"r": Step(after=1.0, at_s=4.4)}, t)["r"][0].tolist() == [1.0]
+    assert signals_at({"r": Step(after=1.0, at_s=4.4)}, [4.399, 4.4])["r"][0].tolist() == [0.0, 1.0]
+
+
 def test_noise_is_the_same_for_the_same_seed_and_has_its_deviation():
     law = StateLaw("echo", {u: 0 * v + x})
     setting = Setting(CART, 50.0, step_s=0.01, noise={"x": 0.1}, log_every_s=0.01, seed=3)
@@ -188,6 +197,7 @@ def test_a_stiff_plant_is_moved_by_a_library_solver_where_fixed_steps_diverge():
     ({"delay_s": {"tau": 1.5e-4}}, "no whole number of plant steps"), ({"parameters": {"mm": 1.0}}, "no parameter"),
     ({"integrator": "euler"}, "not known"), ({"metrics": (Metric("m", "mean", q),)}, "not declared"),
     ({"disturbances": {"w": Constant(value=1.0)}}, "no disturbance"),
+    ({"references": {"r": Step(after=1.0, at_s=2.5e-3)}}, "references.r: at_s = 0.0025 s is no whole number"),
     ({"seed": -1}, "seed = -1: give a whole number that is not negative"), ({"seed": 0.5}, "seed = 0.5")])
 def test_what_is_no_setting_is_one_line(changes, words):
     with pytest.raises(ValueError, match=words):

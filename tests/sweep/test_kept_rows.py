@@ -152,3 +152,23 @@ def test_a_second_writer_is_turned_away_in_a_line(scenario_path, tmp_path):
                 sweep_of(scenario_path, 1, SEED, ["pid"], tmp_path, resume=resume)
         other.kill()
     sweep_of(scenario_path, 1, SEED, ["pid"], tmp_path, workers=1)
+
+
+READS = """
+import os
+from pyarrow import BufferReader, py_buffer
+from pyarrow.parquet import ParquetFile
+from workbench.simulate.row_store import _parquet, _rows_of
+columns, rows = {"run": "int", "error": "float"}, [(number, 0.5) for number in range(4)]
+chunk = ParquetFile(BufferReader(py_buffer(_parquet([rows], columns))))
+before = len(os.listdir("/proc/self/task"))
+assert _rows_of(chunk, 0, 4, columns) == rows
+assert len(os.listdir("/proc/self/task")) == before, "threads were started"
+"""
+
+
+@pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="threads are counted in /proc")
+def test_reading_rows_starts_no_thread():
+    """With pyarrow's threads still there as it ended, a finished sweep now and then aborted with exit code 134."""
+    found = subprocess.run([sys.executable, "-c", READS], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert found.returncode == 0, found.stderr

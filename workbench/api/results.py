@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from workbench.api.frames import data_frame, dataset, html_table, write_mat
 from workbench.errors import of_an_extra
 from workbench.files.numbers import unit_text
-from workbench.simulate.plants.run import PlantRun
+from workbench.simulate.plants.run import Happened, PlantRun
 from workbench.systems.setting import Setting
 
 
@@ -38,6 +38,11 @@ class Run:
     def failed(self) -> str | None:
         """Why the run ended early."""
         return self.found.failed
+
+    @property
+    def events(self) -> tuple[Happened, ...]:
+        """What switched the plant, in the order in which it happened: `t_s`, `id` and the `states` just after."""
+        return self.found.events
 
     @property
     def fallbacks(self) -> int:

@@ -261,7 +261,9 @@ def _rows_of(chunk: Any, place: int, count: int, columns: Mapping[str, str]) -> 
     """The rows of a group, so many; ValueError where it has others, or other columns."""
     if chunk.schema_arrow != _schema(columns) or chunk.metadata.row_group(place).num_rows != count:
         raise ValueError("its rows or columns are others")
-    return list(zip(*chunk.read_row_group(place).to_pydict().values(), strict=True))
+    # Threads of pyarrow may be there still as the process ends, which then aborts; a group is read in no time.
+    read = chunk.read_row_group(place, use_threads=False)
+    return list(zip(*read.to_pydict().values(), strict=True))
 
 
 def _schema(columns: Mapping[str, str]) -> Any:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
+from workbench.systems.declared import contradicted
 from workbench.systems.symbols import Limits, interval, plain, symbols_of
 
 
@@ -43,7 +44,7 @@ class Parameter:
 
 
 def checked_value(symbol: sp.Symbol, value: Any, where: str) -> float:
-    """A finite number that agrees with what sympy knows of the symbol's sign; ValueError otherwise."""
+    """A finite number that is what the symbol is declared; ValueError otherwise."""
     value = plain(value)
     if isinstance(value, bool | complex | str) or not isinstance(value, int | float | np.number):
         raise ValueError(f"{where} = {value!r} is no real number: give one")

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from workbench.compile.casadi_tree import casadi_of
 from workbench.compile.vector_code import numeric_vector
 from workbench.model.law import time
+from workbench.systems.declared import require_no_whole, require_outputs_signed, require_signs_kept
 from workbench.systems.derivatives import jacobian_at
 from workbench.systems.event import Event
 from workbench.systems.parameter import Parameter, checked_value
@@ -88,6 +89,10 @@ class Plant:
         require_known({f"domain expression {e}": e for e in self.domain}, known, where)
         self._check_events(where, known)
         put(self, "input_limits", self._limits(self.input_limits, self.inputs, "input"))
+        require_signs_kept(self.input_limits, self.inputs, where)
+        require_outputs_signed(self.outputs, where)
+        moving = [s for s, e in zip(self.states, self.moves, strict=True) if e != (s if self.updates else 0)]
+        require_no_whole((*moving, *self.inputs, *self.disturbances), where)
         put(self, "state_limits", self._limits(self.state_limits, self.states, "state"))
         put(self, "units", named_values(self.units, f"{where}: units", (*known, *self.outputs)))
         for symbol in self.units:

@@ -11,10 +11,12 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
+from workbench.systems.declared import contradicted, sign_margins
 from workbench.systems.law import Reference
 from workbench.systems.metric import Metric
+from workbench.systems.parameter import checked_value
 from workbench.systems.plant import Plant
-from workbench.systems.signals import AnySignal, Constant, signal_of
+from workbench.systems.signals import AnySignal, Constant, Step, signal_of, signals_at
 from workbench.systems.symbols import (
     CLOCK,
     is_finite,
@@ -29,6 +31,7 @@ from workbench.systems.symbols import (
 Array = NDArray[np.float64]
 Integrator = Literal["rk4", "radau", "bdf", "lsoda"]
 MOST_STEPS = 100_000_000
+INSTANTS = 2001  # at which a disturbance is held against its symbol's sign
 UNSTATED, A_MILLISECOND = math.nan, 1e-3  # the step where none is given: a plant's own, else a millisecond
 
 
@@ -90,6 +93,8 @@ class Setting:
                          f"references of plant '{plant.id}'")
         for name, value in self.delay_s.items():
             self.steps_of(value, f"delay_s.{name}")
+        self._check_jumps()
+        self._check_disturbances()
         for name, channel in self.tracks.items():
             if channel not in self.references:
                 raise ValueError(f"tracks.{name} = '{channel}' is no reference: state references.{channel}")
@@ -122,6 +127,9 @@ class Setting:
                 if not is_finite(value) or (key != "initial" and value < 0):
                     raise ValueError(f"{key}.{name} = {written(value)}: give a finite number"
                                      f"{'' if key == 'initial' else ' that is not negative'}")
+        for symbol in self.plant.states:
+            if str(symbol) in self.initial:
+                checked_value(symbol, self.initial[str(symbol)], f"initial.{symbol}")
         for symbol, (low, high) in self.plant.input_limits.items():
             # A stated number is never changed silently: within its limits alone can an input begin.
             first = self.initial.get(str(symbol), low)
@@ -135,6 +143,23 @@ class Setting:
                                      "give less, or a longer duration_s")
         if not isinstance(self.seed, int | np.integer) or isinstance(self.seed, bool) or self.seed < 0:
             raise ValueError(f"seed = {self.seed!r}: give a whole number that is not negative")
+
+    def _check_jumps(self) -> None:
+        """ValueError for a jump within a step of a continuous plant: it would come with the next step, unasked."""
+        for key in ("references", "disturbances") if not self.plant.updates else ():
+            for name, signal in getattr(self, key).items():
+                if isinstance(signal, Step) and 0 < signal.at_s < self.duration_s:
+                    self.steps_of(signal.at_s, f"{key}.{name}: at_s")
+
+    def _check_disturbances(self) -> None:
+        """ValueError for a disturbance that takes values which its symbol is declared not to take."""
+        for symbol in self.plant.disturbances if sign_margins(self.plant.disturbances) else ():
+            values = signals_at({"d": self.signals[str(symbol)]}, np.linspace(0.0, self.duration_s, INSTANTS))["d"][0]
+            for value in (values.min(), values.max()):
+                # Zero, which it has where nothing is stated, is what no sign forbids.
+                if value and (kind := contradicted(symbol, value)):
+                    raise ValueError(f"disturbances.{symbol} takes the value {value:g}, but the symbol is declared "
+                                     f"{kind}: correct one of them")
 
     def _step(self) -> float:
         own = self.plant.step_s

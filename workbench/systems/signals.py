@@ -29,6 +29,7 @@ POLYNOMIAL, STEP, SINE, SPLINE = 0.0, 1.0, 2.0, 3.0
 WIDTH = 7
 AT_ONCE = 1e-9  # s: a step so close ahead has come, as in compiled code: rounding alone keeps 3 * 0.3 below 0.9
 MOST_ROWS = 100_000
+JUMPS_BEFORE = 1e-9  # s: what rounding may take from a sample's time; the compiled loop allows the same
 
 
 class _Signal(Record):

@@ -24,6 +24,7 @@ from workbench.simulate.plants import event_loop, law_call, plant_call, plant_lo
 from workbench.simulate.plants.event_code import event_functions
 from workbench.simulate.plants.event_loop import MOST_IN_A_RUN
 from workbench.simulate.plants.plant_call import QUESTIONS
+from workbench.systems.declared import sign_margins
 from workbench.systems.law import StateLaw
 from workbench.systems.plant import Plant
 from workbench.systems.setting import Setting, first_inputs
@@ -99,7 +100,7 @@ def _plant(subject: _Subject, integrands: tuple[sp.Expr, ...], extremes: tuple[s
     source = [
         QUESTIONS, step, rates_into(count, given),
         into_array("plant_outputs", list(plant.outputs.values()), {"x": plant.states, "p": plant.parameter_symbols}),
-        smallest("plant_margin", plant.domain, every),
+        smallest("plant_margin", (*plant.domain, *sign_margins(plant.states)), every),
         into_array("extreme_values", extremes, every), *event_functions(plant, every)]
     return c_function(loop_module(f"plant {plant.id}", source, plant_call), "answer", plant_call.ANSWER)
 
@@ -119,7 +120,7 @@ def law_functions(law: StateLaw, plant: Plant, signals: Sequence[sp.Symbol]) -> 
     commands = [law.commands[symbol] for symbol in plant.inputs]
     targets = [*(f"q[{i}]" for i in range(len(law.states))), *(f"out[{i}]" for i in range(len(commands)))]
     return [into_array("law_step", [*law.next_values, *commands], arrays, SAMPLED, targets),
-            smallest("law_margin", law.domain, arrays, SAMPLED)]
+            smallest("law_margin", (*law.domain, *sign_margins(law.state_symbols)), arrays, SAMPLED)]
 
 
 @dataclass

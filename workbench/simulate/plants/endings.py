@@ -8,6 +8,7 @@ from workbench.simulate.plants.arrays import Arrays
 from workbench.simulate.plants.event_loop import MOST_IN_A_RUN, MOST_IN_A_STEP, PILED_UP, TOO_MANY
 from workbench.simulate.plants.plant_loop import DIVERGED, LAW_OUTSIDE, NO_COMMAND, OUTSIDE, RUNNING
 from workbench.simulate.plants.solver import MOST_CALLS, SOLVER_FAILED
+from workbench.systems.declared import signs_told
 from workbench.systems.law import StateLaw
 from workbench.systems.setting import Setting
 
@@ -28,8 +29,9 @@ def why(setting: Setting, name: str, law: StateLaw | None, status: int, t: float
         return f"{name} diverged at t = {t:.4g} s, {_last_logged(setting, t, a)}: {UNDEFINED}"
     where = ", ".join(f"{symbol} = {value:.4g}" if math.isfinite(value) else f"{symbol} beyond all numbers"
                       for symbol, value in zip(plant.states, a.x, strict=False))
-    outside = plant.domain if status == OUTSIDE else law.domain if law else ()
-    domain = ", ".join(f"{e} > 0" for e in outside).replace("**", "^")
+    outside, signed = (plant.domain, plant.states) if status == OUTSIDE else (
+        (law.domain, law.state_symbols) if law else ((), ()))
+    domain = ", ".join([*(f"{e} > 0" for e in outside), *signs_told(signed)]).replace("**", "^")
     last = plant.events[int(a.event_log[a.event_count[0] - 1, 1])].id if a.event_count[0] else ""
     what = {PILED_UP: f"met event '{last}' more than {MOST_IN_A_STEP} times in a plant step, or too fast to tell apart "
             "(state a mode in which the plant rests), which was",
