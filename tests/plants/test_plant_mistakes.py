@@ -192,3 +192,18 @@ def test_the_sampling_period_is_a_laws_alone() -> None:
         wb.Setting(_plant(), 1.0, metrics=(wb.Metric("m", "integral", wb.period),))
     run = wb.simulate(_plant(), wb.Law("l", {u: wb.period}), period_s=0.25, duration_s=1.0)
     assert run["u"][-1] == 0.25
+
+
+@pytest.mark.parametrize(("old", "new", "told"), [
+    ("reference.x_d", "reference.y_d", "tracks.x = 'x_d' is no reference: state reference.x_d$"),
+    ("at_s = 5.0", "at_s = 5.0004", r"study.toml: disturbance.d: at_s = 5.0004 s is no whole number"),
+    ("tracks =", "actuators.delay_s = { u = 0.0005 }\ntracks =", "study.toml: actuators.delay_s.u = 0.0005 s is no"),
+    ("tracks =", "sensing.noise = { z = 0.1 }\ntracks =", "study.toml: sensing.noise.z: plant 'mine2026.mass' has no")])
+def test_a_mistake_in_a_file_is_told_by_the_keys_of_files(tmp_path: Path, old: str, new: str, told: str) -> None:
+    """A setting of Python has references, a file reference: who stated what was asked for was refused once more."""
+    folder = write_new_paper("mine2026", tmp_path, "plant")
+    study = folder / "study.toml"
+    assert old in study.read_text()
+    study.write_text(study.read_text().replace(old, new))
+    with pytest.raises(InputError, match=told):
+        wb.load(folder)

@@ -38,9 +38,10 @@ class Parameter:
             if not (math.isfinite(low) and math.isfinite(high)):
                 raise ValueError(f"{where}: known = ({low:g}, {high:g}) has no end: a sweep draws from it, give two "
                                  "finite numbers")
-            if low < 0 and self.symbol.is_nonnegative:  # a sweep would draw from it, and gains be proved for it
-                raise ValueError(f"{where}: known begins at {low:g}, and the symbol is declared "
-                                 f"{_sign(self.symbol)}: correct one of them")
+            for end, what in ((low, "begins"), (high, "ends")):  # a sweep draws from it, and gains are proved for it
+                if end != 0 and (kind := contradicted(self.symbol, end)):
+                    raise ValueError(f"{where}: known {what} at {end:g}, and the symbol is declared {kind}: correct "
+                                     "one of them")
 
 
 def checked_value(symbol: sp.Symbol, value: Any, where: str) -> float:
@@ -54,10 +55,6 @@ def checked_value(symbol: sp.Symbol, value: Any, where: str) -> float:
         number = math.inf
     if not math.isfinite(number):
         raise ValueError(f"{where} = {number} is not finite: give a number")
-    if (symbol.is_positive and number <= 0) or (symbol.is_nonnegative and number < 0):
-        raise ValueError(f"{where} = {number:g}, but the symbol is declared {_sign(symbol)}: correct one of them")
+    if kind := contradicted(symbol, number):
+        raise ValueError(f"{where} = {number:g}, but the symbol is declared {kind}: correct one of them")
     return number
-
-
-def _sign(symbol: sp.Symbol) -> str:
-    return "positive" if symbol.is_positive else "nonnegative"
