@@ -2,6 +2,7 @@
 kernel in its process, and a test process needs a hundred."""
 
 import contextlib
+import gc
 import math
 import os
 import select
@@ -63,6 +64,7 @@ def in_a_fork(work, *arguments) -> None:
         return
     with contextlib.suppress(BaseException):
         Dispatcher.compile, CFunc.compile = compile_here, compile_function_here
+        gc.disable()  # it ends too soon for garbage to matter
         work(*arguments)
     os._exit(0)
 

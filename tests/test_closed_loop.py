@@ -4,29 +4,21 @@ import re
 import time
 
 import compiled_apart
-import law_alone
 import numpy as np
 import pytest
 import sympy as sp
 from plain_loop import plain_run
 from scenarios import BENCHMARKS, LAWS, YANG, name_of, short_scenario, values_for, with_law
 
-from workbench.compile.kernel import law_source, loop_module
 from workbench.errors import InputError, WorkbenchError
 from workbench.model.law import ControlLaw, LawState, desired_position, position, speed
 from workbench.model.laws import GENERAL
 from workbench.simulate import closed_loop, law_time
 from workbench.simulate.closed_loop import Factors, prepared, setting_of, simulate
-from workbench.simulate.law_values import law_values
 from workbench.simulate.metrics import measure
 from workbench.trains.scenario import load_scenario
 
 EVERY = [(law, estimates) for estimates in ("corrected", "explicit") for law in LAWS]
-# One paper has as many laws as all others together. Its own tests hold their compiled loops to plain Python, with its
-# own train; here one of them runs in each loop, and the others answer alone.
-ALONE = [(law, estimates) for law, estimates in EVERY if law.startswith("mao2018.") and law != "mao2018.healthy"]
-WHOLE = [which for which in EVERY if which not in ALONE]
-IN_LOOPS = [law for law in LAWS if (law, "corrected") in WHOLE]
 
 
 def run_law(law_id, estimates="corrected", period_s=0.01, **changes):
@@ -42,7 +34,7 @@ def compared_with_plain(law, estimates, steps=600, period_s=0.02):
     return scenario, plain
 
 
-@pytest.mark.parametrize(("law", "estimates"), WHOLE, ids=str)
+@pytest.mark.parametrize(("law", "estimates"), EVERY, ids=str)
 def test_every_law_runs_compiled_as_it_does_in_plain_python(law, estimates):
     scenario, plain = compared_with_plain(LAWS[law], estimates)
     run = simulate(scenario, "only")
@@ -53,24 +45,7 @@ def test_every_law_runs_compiled_as_it_does_in_plain_python(law, estimates):
         assert run.column(name)[:steps] == pytest.approx(np.array(values), rel=1e-9, abs=1e-11), name
 
 
-@pytest.mark.parametrize(("law", "estimates"), ALONE, ids=str)
-def test_every_law_answers_compiled_what_it_does_in_plain_python(law, estimates):
-    """Without the loop, which is the same for all laws and takes longest to compile."""
-    law = LAWS[law]
-    scenario, plain = compared_with_plain(law, estimates)
-    asked = slice(None, None, 2)  # the plant's steps at which the law is asked
-    t, p, v, u = (np.array(plain[name][asked]) for name in ("t_s", "s_m", "v_mps", "u_mps2"))
-    samples = np.column_stack((t, p, v, *scenario.desired_curve().at(t), np.full(len(t), 0.02)))
-    parameters, scalars, *neurons = law_values(law, scenario.controllers["only"], "only")
-    commands, states = np.zeros(len(t)), np.zeros((len(t), len(scalars)))
-    kernel = loop_module(law.source, [law_source(law, estimates)], law_alone)
-    kernel.answers(samples, parameters, scalars, *neurons, commands, states)
-    assert commands == pytest.approx(u, rel=1e-9, abs=1e-11)
-    for state, values in zip(law.scalar_states, states.T, strict=True):
-        assert values == pytest.approx(np.array(plain[str(state.symbol)][asked]), rel=1e-9, abs=1e-11), state.symbol
-
-
-@pytest.mark.parametrize("law_id", IN_LOOPS)
+@pytest.mark.parametrize("law_id", LAWS)
 def test_the_same_run_twice_is_the_same_bit_for_bit(law_id):
     first, second = run_law(law_id)[1], run_law(law_id)[1]
     assert first.log.tobytes() == second.log.tobytes()
@@ -78,7 +53,7 @@ def test_the_same_run_twice_is_the_same_bit_for_bit(law_id):
     assert first.final_position_m == second.final_position_m
 
 
-@pytest.mark.parametrize("law_id", IN_LOOPS)
+@pytest.mark.parametrize("law_id", LAWS)
 def test_totals_are_those_of_the_full_log(law_id):
     scenario, run = run_law(law_id, period_s=0.05)
     assert run.failed is None
