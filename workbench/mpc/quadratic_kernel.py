@@ -110,7 +110,7 @@ def active_set(cross, jac, gap, start, Q0, q0, R, r, low, high, rows, price, h, 
         riccati(cross, jac, gap, start, Q, q, R, r, fixed, bound, kept, dx, du, slope)
         moved = False
         for k in range(N):
-            if not abs(du[k]) < 10.0 * (high[k] - low[k]):
+            if not abs(du[k]) < 10.0 * (high[k] - low[k]) + abs(high[k]) + abs(low[k]) + 1.0:
                 return -1  # what is held contradicts itself, and the guesses after it hardly come to rest
             if fixed[k] == 0:
                 if du[k] > high[k] + 1e-10:
