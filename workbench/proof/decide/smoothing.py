@@ -30,13 +30,16 @@ def smoothing_lemmas(goal: Goal, shown: Relation, given: Given, prove: Prove) ->
     if not margin.has(sp.tanh) or not any(each.has(sp.Abs, sp.sign) for each in (margin, *(r.margin for r in given))):
         return []
     found: list[tuple[Relation, Proof]] = []
+    expanded = sp.expand(margin)
     for tanh in sorted(margin.atoms(sp.tanh), key=sp.default_sort_key):
         inner, width = sp.fraction(tanh.args[0])
         if tanh.args[0].has(sp.Sum, sp.Indexed) or not (
                 width.is_positive or any(r.strict and vanishes(r.margin - width) for r in given)):
             continue
         lemma = at_most(sp.Abs(inner) - inner * tanh, MOST * width)
-        own = tanh.args[0].free_symbols
+        own, share = tanh.args[0].free_symbols, sp.cancel(expanded.coeff(tanh) / inner)
+        if share == 0 or not sp.denom(share).free_symbols.isdisjoint(inner.free_symbols):
+            continue  # it is no factor of its argument
         if margin.free_symbols == own or sp.cancel(margin / lemma.margin).free_symbols.isdisjoint(own):
             continue  # it is the bound itself, for the search
         if (proof := prove(goal, lemma, (*given, *(other for other, _ in found)))) is not None:
