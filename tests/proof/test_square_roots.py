@@ -57,6 +57,23 @@ def test_what_is_false_of_it_is_broken(goal):
     assert prove_goal(stated) is None and find_counterexample(stated, "refuted") is not None
 
 
+@pytest.mark.parametrize("goal", [
+    lambda: Goal((at_most(1 / sp.sqrt(s**2), 1),), (at_least(s**2, 1),)),
+    lambda: Goal((at_most((s**2) ** sp.Rational(-3, 2), 1),), (at_least(s**2, 1),)),
+    lambda: Goal((equal(s**2 / sp.sqrt(s**2), sp.Abs(s)),), (at_least(s, 1),)),
+    lambda: Goal((at_most(sp.exp(-sp.sqrt(s**2)), 1),)),
+    lambda: Goal((at_most(sp.sqrt(sp.pi * s**2), 2 * sp.Abs(s)),)),
+    lambda: Goal((at_most(sp.exp(-sp.sqrt(s**2 + d**2)) / sp.sqrt(s**2 + d**2), 1),), (at_least(s**2 + d**2, 1),))],
+    ids=["below", "below, cubed", "of a product", "in a function", "of pi", "a length in a function"])
+def test_roots_where_none_is_told_apart_end_no_search(goal):
+    """They are decided or not, as before: what the checker has not accepted is no proof."""
+    with as_typed():
+        stated = goal()
+    certificate = prove_goal(stated)
+    assert certificate is None or certificate["verdict"] == "proved"
+    assert find_counterexample(stated, "refuted", quick=True) is None
+
+
 @settings(max_examples=12, deadline=None)
 @given(st.fractions(min_value="1/9", max_value=9, max_denominator=9), st.fractions(0, 5, max_denominator=3))
 def test_with_any_numbers(number, factor):

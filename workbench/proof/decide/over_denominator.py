@@ -39,6 +39,8 @@ def find_over_denominator(goal: Goal, shown: Relation, given: Given, prove: Prov
     if multiplier is None or not number > 0:
         return None
     rest, terms = sp.expand(numerator / number), list[dict[str, Any]]()
+    if lengths and not rest.is_polynomial(*lengths.values()):
+        return None  # a length within a function
     for root, mark in lengths.items():  # to the checker the square of a root is no expression below it yet
         cofactor, rest = sp.div(rest, mark**2 - root.base, mark)
         if cofactor != 0:

@@ -66,6 +66,8 @@ def _as_typed(goal: Goal, usual: Goal, place: int, proof: Proof) -> Proof | None
     for root in roots:
         steps += _what_it_is(root, first + len(steps))
         mark, value = _mark("root", root.inner), root.times * numbers.get(root.number, 1) * sizes[root.size]
+        if not rest.is_polynomial(mark, *sizes.values(), *numbers.values()):
+            return None  # a root below a fraction bar, or within a function
         cofactor, rest = sp.div(rest, mark - value, mark)
         terms += _multiple(cofactor, {"assume": first + len(steps) - 1}, names)
     for size, mark in sizes.items():
@@ -101,7 +103,7 @@ def _roots_in(relation: Relation) -> Iterator[Root]:
         if not plain.is_polynomial(*plain.free_symbols):
             continue
         number, factors = sp.factor_list(plain)
-        if factors and number > 0 and all(power % 2 == 0 for _, power in factors) and max(
+        if factors and number.is_Rational and number > 0 and all(power % 2 == 0 for _, power in factors) and max(
                 number.p, number.q).bit_length() <= MOST_BITS:
             whole = sp.sqrt(number.p * number.q)  # sqrt(p/q) == sqrt(p q)/q
             times, root = whole.as_coeff_Mul()
