@@ -10,7 +10,7 @@ from command_line import run
 from scenarios import SHARED, YANG
 from small_folders import small_folder
 
-from workbench.cli.collection import MANY, collect_later
+from workbench.tasks.collection import MANY, SELDOM, collect_later, imports_left_out
 from workbench.cli.loading import load
 from workbench.simulate import compare as compare_module
 from workbench.tasks.processes import LocalProcesses
@@ -101,7 +101,7 @@ def test_a_small_comparison_is_run_where_it_is_asked_for(tmp_path, monkeypatch):
         loaded.scenario.controllers)
 
 
-def test_collection_begins_late_and_then_is_as_it_was():
+def test_collection_begins_late_and_then_is_seldom():
     before = gc.get_threshold()
     gc.collect()  # so that no count is near the limit yet
     try:
@@ -110,12 +110,29 @@ def test_collection_begins_late_and_then_is_as_it_was():
         collect_later()  # as of a program that calls the command line twice
         assert gc.get_threshold() == (MANY, 10, 10)
         kept = [[] for _ in range(MANY + 10_000)]
-        assert gc.get_threshold() == (700, 10, 10)
+        assert gc.get_threshold() == (SELDOM, 10, 10)
         assert len(kept) > MANY
+        gc.set_threshold(SELDOM + 1, 10, 10)
+        collect_later()
+        assert gc.get_threshold() == (SELDOM + 1, 10, 10)
         gc.set_threshold(0)
         collect_later()
         assert gc.get_threshold()[0] == 0
     finally:
+        gc.set_threshold(*before)
+
+
+def test_what_a_server_imports_is_never_looked_through_and_the_rest_seldom():
+    before, frozen = gc.get_threshold(), gc.get_freeze_count()
+    try:
+        gc.set_threshold(700, 10, 10)
+        with imports_left_out():
+            assert not gc.isenabled()
+            kept = [[] for _ in range(10_000)]
+        assert gc.isenabled() and gc.get_threshold() == (SELDOM, 10, 10)
+        assert gc.get_freeze_count() >= frozen + len(kept)
+    finally:
+        gc.unfreeze()
         gc.set_threshold(*before)
 
 

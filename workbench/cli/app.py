@@ -23,7 +23,6 @@ from typer.core import TyperGroup
 from typer.exceptions import TyperException
 from typer.main import get_command
 
-from workbench.cli.collection import collect_later, end_without_search
 from workbench.cli.console import err_console, out_console
 from workbench.cli.option_mistakes import in_plain_words
 from workbench.cli.options import Version
@@ -32,6 +31,7 @@ from workbench.errors import InputError, WorkbenchError, of_an_extra, printable
 from workbench.files.memory_limit import MORE, MORE_FILES, is_of_memory, require_memory
 from workbench.files.paper_code import mistakes_told
 from workbench.files.streams import drop_output, output_kept
+from workbench.tasks.collection import collect_later, end_without_search
 from workbench.tasks.room_for_calls import with_room_for_calls
 from workbench.tasks.threads import use_one_thread
 

@@ -54,7 +54,7 @@ def command(folder: Annotated[Path, typer.Argument(help="Folder with certificate
 def _folder(folder: Path, named: list[Path], workers: int | None) -> tuple[list[Row], str]:
     """The rows of a folder, and what its certificates were held against."""
     from workbench.files.folders import require_few
-    from workbench.proof.binding import papers_at_hand
+    from workbench.proof.at_hand import papers_at_hand
     from workbench.proof.checking import check_all
     from workbench.tasks.handing_out import places
 

@@ -3,54 +3,18 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from workbench.errors import InputError, WorkbenchError
-from workbench.files.folders import CERTIFICATES
-from workbench.files.folders import papers_in as folders_in
+from workbench.errors import WorkbenchError
 from workbench.files.text import read_text
-from workbench.proof.checker import MANIFEST, THEOREMS, CertificateError, Manifest, Row, read_manifest
+from workbench.proof.checker import MANIFEST, THEOREMS, CertificateError, Row, read_manifest
 from workbench.proof.claim import Claim
 from workbench.proof.claim_digest import stated_digest
 from workbench.proof.loading import ProofFile
-from workbench.proof.paper import Paper, papers_in
-from workbench.proof.selection import files_of, states_claims, targets
+from workbench.proof.paper import papers_in
 from workbench.proof.whole_theorem import recorded_theorems
-
-
-def papers_at_hand(folder: Path, named: Sequence[Path] = ()) -> dict[Path, Path]:
-    """By each folder of certificates the paper's folder, or the proof file, that states its claims.
-
-    The papers that are the folder, lie in it or have it as theirs are found by themselves; `named` are others, whose
-    certificates lie anywhere below the folder. Raises InputError for one that is named and has none there.
-    """
-    here = folder.resolve()
-    places = {place for place in (here, here.parent, *folders_in(here)) if states_claims(place)}
-    found = {place / CERTIFICATES: place for place in sorted(places) if (place / CERTIFICATES).is_relative_to(here)}
-    manifests = _manifests(folder)
-    for path in files_of(targets([str(p) for p in named])) if named else ():
-        names = [paper.name for paper in _papers(path)]
-        found |= {place: path for place, manifest in manifests.items() if manifest.paper in names and
-                  not (place.parent in manifests and manifests[place.parent].paper == manifest.paper)}
-        if not set(names) & {manifest.paper for manifest in manifests.values()}:
-            raise InputError(path, "", f"is of no paper whose certificates lie in {folder}: name theirs")
-    return found
-
-
-def _manifests(folder: Path) -> dict[Path, Manifest]:
-    found: dict[Path, Manifest] = {}
-    for path in sorted(folder.rglob(MANIFEST)):
-        try:
-            found[path.parent.resolve()] = read_manifest(path)
-        except CertificateError:  # said where the certificates themselves are checked
-            continue
-    return found
-
-
-def _papers(path: Path) -> list[Paper]:
-    return papers_in(ProofFile(path))
 
 
 def check_claims(place: Path, path: Path) -> tuple[list[Row], int]:

@@ -9,7 +9,9 @@ from typing import Any
 
 from workbench.proof.checker import THEOREMS, File, Row, check_file, check_folder
 from workbench.tasks.handing_out import results_of
+from workbench.tasks.processes import start_method
 
+BINDING = "workbench.proof.binding"  # what workers need; this process does without sympy
 WORTH_PROCESSES = 100  # certificates; fewer are checked sooner than another process has started
 
 Part = tuple[str, Any]
@@ -27,10 +29,12 @@ def check_all(folder: Path, papers: Mapping[Path, Path], workers: int,
         groups: dict[Path, list[File]] = {}
         for file in files:
             groups.setdefault(_paper_of(file[0]), []).append(file)
-        tasks: list[Part] = [("files", place) for place in sorted(groups, key=lambda place: -len(groups[place]))]
-        tasks += [("claims", place) for place in claims]
-        found.update(results_of(_part, {"files": groups, "claims": claims}, tasks,
-                                workers if len(files) >= WORTH_PROCESSES else 1,
+        tasks: list[Part] = [("files", place) for place in groups] + [("claims", place) for place in claims]
+        tasks.sort(key=lambda part: -len(groups.get(part[1], ())))
+        several = workers > 1 and len(files) >= WORTH_PROCESSES
+        if several:
+            start_method(BINDING)
+        found.update(results_of(_part, {"files": groups, "claims": claims}, tasks, workers if several else 1,
                                 lambda done, *_: on_progress(done, len(tasks))))
         by_path = {row[0]: row for place in groups for row in found["files", place]}
         return [by_path[path] for path, _ in files]

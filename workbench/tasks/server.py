@@ -12,6 +12,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from importlib import import_module
 
+from workbench.tasks.collection import imports_left_out
+
 # Variables of the server's environment, with modules apart by commas, and the number of the process that starts it.
 MODULES, PARENT = "WORKBENCH_SERVER_MODULES", "WORKBENCH_SERVER_PARENT"
 EVERY_S = 0.25
@@ -45,7 +47,7 @@ def parent_watched(parent: int) -> Iterator[None]:
 def import_told() -> None:
     """Import what the environment names, if it does; what cannot be imported here a worker will tell of."""
     if MODULES in os.environ:
-        with parent_watched(int(os.environ[PARENT])):
+        with parent_watched(int(os.environ[PARENT])), imports_left_out():
             for name in os.environ[MODULES].split(","):
                 with suppress(ImportError):
                     import_module(name)

@@ -17,7 +17,8 @@ from workbench.files.folders import CERTIFICATES, STUDY_FILE, held_in
 from workbench.model.law import period
 from workbench.paper.loading import load
 from workbench.paper.plants.problem import LocatedPlantStudy
-from workbench.proof.binding import check_claims, papers_at_hand
+from workbench.proof.at_hand import papers_at_hand
+from workbench.proof.binding import check_claims
 from workbench.proof.checker import check_folder
 from workbench.simulate.plants.arrays import compiled
 from workbench.simulate.plants.run import Entrant, PlantRun
