@@ -10,9 +10,9 @@ from command_line import run
 from scenarios import SHARED, YANG
 from small_folders import small_folder
 
-from workbench.tasks.collection import MANY, SELDOM, collect_later, imports_left_out
 from workbench.cli.loading import load
 from workbench.simulate import compare as compare_module
+from workbench.tasks.collection import MANY, SELDOM, collect_later, imports_left_out
 from workbench.tasks.processes import LocalProcesses
 
 HEAVY = ("scipy.optimize", "control", "cvxpy", "casadi", "matplotlib", "sympy", "numba", "clarabel", "scipy")

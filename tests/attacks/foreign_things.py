@@ -39,8 +39,15 @@ FOREIGN = (
     rf"{_LETTERS}The storage function of the first link is {_W}For the second link we have [[W \ge 0]]",
     rf"{_LETTERS}The rocket obeys \begin{{equation}} c \dot x = u . \end{{equation}} Its mass decreases. Let "
     r"$p = c x$. Then [[\dot p = u]]",
+    *(rf"{_LETTERS}{motion} \begin{{equation}} \dot x = -c x . \end{{equation}} Let \begin{{equation}} W = x^2 . "
+      rf"\end{{equation}} {said} [[\dot W = -2 c x^2]]" for motion, said in (
+          ("The filter is", "Along the plant,"), ("The error dynamics are", "Along the plant, we get"),
+          ("The system is", "To first order,"), ("The system is", "In the new coordinates,"))),
+    rf"{_PLANT}The control law is {_LAW}The state is measured every second. {_LOOP}",
 )
 CONSTRAINED = (
+    *(rf"Let $x \in \mathbb{{R}}$. {said} [[x^3 \ge x]]" for said in (
+        "Under Assumption 3,", "By (A1),", "With the numbers of Table 1,")),
     *(rf"Let $x, y \in \mathbb{{R}}$. {said} [[x > y]]" for said in (
         "By design,", "Kirchhoff's law gives", "The level is kept above the outlet. Thus", "The controller guarantees",
         "The loop is stable. Hence", "The pump is the stronger one. Hence", "Consequently the gain satisfies")),

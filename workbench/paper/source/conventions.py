@@ -62,6 +62,7 @@ _SIGNS = _words("positive nonnegative non-negative")
 CALLS = _words("write writes call calls")
 DENOTES = _words("denotes denote stands represents represent designates means")
 _PARTS = _words("term terms part parts square squares sum difference product half alone only summand first second last")
+_NO_RATES = _words("measured filtered estimated commanded desired sampled delayed approximate reference nominal")
 _MANNERS = _words("convention conventions opposite reversed inverse")
 # By these words what was printed before is taken back or changed, wherever that stands.
 TAKES_BACK = _words("""
@@ -130,6 +131,11 @@ def any_number(texts: Collection[str]) -> bool:
 def a_part(texts: Collection[str]) -> bool:
     """Whether a sentence may say of a letter that it denotes a part of what it did before."""
     return bool(DENOTES & {*texts}) and bool(_PARTS & {*texts})
+
+
+def no_rate(formula: str, texts: Collection[str]) -> bool:
+    """Whether a sentence may call a rate something else than the rate, as `$\\dot x$ denotes the measured speed`."""
+    return shows_rate(formula) and bool(_NO_RATES & {*texts})
 
 
 def no_number(texts: Collection[str], formulas: Sequence[str]) -> bool:

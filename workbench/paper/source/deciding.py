@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import replace
+from itertools import pairwise
 
 from workbench.paper.source.conventions import shows_rate
 from workbench.paper.source.document import Source
 from workbench.paper.source.letters import defined_in_text, said_of, values_and_rates
+from workbench.paper.source.passages import Sentence, Word
 from workbench.paper.source.row import Row
 from workbench.paper.source.shown import Standing
 from workbench.proof.latex.error import LatexError
@@ -14,6 +18,11 @@ from workbench.proof.latex.read import read_line
 from workbench.proof.latex.rows import LetterEntry, RowEntry, text_of
 from workbench.proof.latex.sides import letters_of_text, moving_sides, rated_in, sides_of
 from workbench.proof.latex.tree import Letter, Number, Product, Quotient, Terms, parts_of
+
+_TYPED = re.compile(r"[A-Z]?[.-]?\d+(?:\.\d+)*[a-z]?")  # a number by which a text refers without a label
+# What a number is of, where one says it.
+_KINDS = {one + plural for one in ("assumption", "lemma", "theorem", "proposition", "corollary", "definition", "table",
+                                   "condition", "propertie", "hypothese", "figure", "case") for plural in ("", "s")}
 
 
 def standings(made: list[tuple[Row, RowEntry]], found: Source, facts: str) -> dict[str, Standing]:
@@ -48,9 +57,30 @@ def standings(made: list[tuple[Row, RowEntry]], found: Source, facts: str) -> di
         given = {letter for part in values_and_rates(text_of(entry)) for letter in part}
         for name in {*row.labels, row.number} - {""} if given else ():
             called.setdefault(name, set()).update(given)
-    return {entry.id: found.said.standing(row.display, within(text_of(entry)), names(row), nouns, said,
-                                          called)
-            for row, entry in made if row.display >= 0}
+    known = {(name, row.what.lower()) for row in found.rows for name in (row.number, *row.labels) if name}
+    judged = {}
+    for row, entry in made:
+        if row.display >= 0:
+            standing = found.said.standing(row.display, within(text_of(entry)), names(row), nouns, said, called)
+            sentence = found.said.passages.sentences[found.said.shown[row.display]]
+            strange = [f"what it refers to, {one}, which is not in the text" for one in unresolved(sentence, known)]
+            judged[entry.id] = replace(standing, doubts=(*standing.doubts, *strange))
+    return judged
+
+
+def unresolved(sentence: Sentence, known: Collection[tuple[str, str]]) -> Iterator[str]:
+    """What a sentence refers to that stands nowhere in the text, as `Table 1`; known: numbers and labels of rows, each
+    with what it is a number of."""
+    names = {name for name, _ in known}
+    for before, word in pairwise((Word("mark", "", 0, 0), *sentence.words)):
+        for name in word.text.split(",") if word.kind == "reference" else ():
+            plain = name.strip().strip("()")
+            what = before.text.rstrip("s")
+            if _TYPED.fullmatch(plain) is None:
+                continue  # a label, which LaTeX itself looks up
+            if plain not in names or (before.text in _KINDS and not any(
+                    one == plain and kind.startswith(what) for one, kind in known)):
+                yield f"{before.text} {name.strip()}".strip()
 
 
 def as_read(row: RowEntry, standing: Standing | None) -> RowEntry:

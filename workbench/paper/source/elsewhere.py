@@ -15,6 +15,7 @@ from workbench.paper.source.conventions import (
     means_otherwise,
     moves_otherwise,
     no_number,
+    no_rate,
     shows_rate,
     turns,
 )
@@ -108,7 +109,8 @@ def denoted_in_part(words: Sequence[Word]) -> Iterator[str]:
     if len(formulas) > 1 and CALLS & {word.text for word in words}:
         yield from (letter for one in formulas if letters_of_text(one) == {one} for letter in (one,))
     for word, behind in pairwise(words):
-        if word.kind == "math" and behind.text in DENOTES and a_part([one.text for one in words]):
+        texts = [one.text for one in words]
+        if word.kind == "math" and behind.text in DENOTES and (a_part(texts) or no_rate(word.text, texts)):
             yield from letters_of_text(word.text)
 
 

@@ -55,6 +55,7 @@ _NOT_EVERYWHERE = re.compile(
     r"could|can|would|should|follow\w*|hence|thus|therefore|impl(?:y|ies)|yields?|since|because|sets?(?!-)|region|domain|"
     r"(?:in|out)side|instance|example|show\w*|prove\w*|conclude\w*|near|small|large|initially|first|once)\b|\bas\s*\$",
     re.IGNORECASE)
+_ESTIMATE = re.compile(r"\\(?:hat|tilde)\{([^{}]+)\}(.*)")
 _VARIES = re.compile(r"\b(?:var(?:y|ies|ying)|changes?|changing|switch\w*|adapt\w*|updated?|time-dependent|"
                      r"functions?)\b", re.IGNORECASE)
 _FUNCTION = r"\b(?:energy|storage|Lyapunov|functions?|functionals?|candidates?)\b"
@@ -128,8 +129,15 @@ def table_of(rows: list[RowEntry], facts: str, text: str) -> dict[str, LetterEnt
         if letter in unclear - states:
             kinds.pop(letter, None)
         role = "state" if letter in states else "constant" if letter in constant else said[0] if len(said) == 1 else ""
-        entries[letter] = LetterEntry.model_validate({"kind": kinds.get(letter, ""), "role": role})
+        kind = kinds.get(letter, "real" if letter in states and kinds.get(_estimated(letter)) else "")
+        entries[letter] = LetterEntry.model_validate({"kind": kind, "role": role})
     return entries
+
+
+def _estimated(letter: str) -> str:
+    """Of what a letter is the estimate or its error, which are numbers where it is one."""
+    found = _ESTIMATE.fullmatch(letter)
+    return found[1] + found[2] if found else ""
 
 
 def functions_in(text: str) -> set[str]:

@@ -28,6 +28,8 @@ _PARTIAL = words_of("""
     summands numerator denominator increment decrement fraction quotient remainder open-loop feedforward compare
     compares compared comparing
 """)
+# Of an expansion: what is of another order is left out.
+_ORDERS = words_of("first second third leading lowest zeroth higher lower")
 # The coefficient of W is not W.
 _OF = words_of("coefficient coefficients factor factors weight weights growth ratio exponent power root sign size norm")
 _CHOSEN = vocabulary.DEFINE | vocabulary.DEFINING | words_of("""
@@ -40,6 +42,8 @@ _CHANGES = words_of("""
     decreases add adds added adding subtract subtracts subtracted scale scales scaled multiply multiplies multiplied
     replace replaces replaced rotate rotates rotated normalize normalized
 """)
+# What is done once in such a while is not done all the time.
+_PERIODS = words_of("second seconds minute hour day step sample sampling period instant cycle tick millisecond frame")
 # Behind these a place is none of the motion's: `forces that act on the surface`, `based on the level`.
 _ACTING = words_of("acting acts act based depends depending depend relies rely exerted mounted moves moving move")
 _WITHIN = (vocabulary.MODIFIERS | vocabulary.ADJECTIVES | vocabulary.GIVEN | vocabulary.TEXT | vocabulary.NAMES
@@ -84,7 +88,8 @@ def partial(texts: Sequence[str]) -> tuple[str, ...]:
 
 def changing(texts: Sequence[str]) -> tuple[str, ...]:
     """The words by which a sentence without displays may change what was given before; none where it has none."""
-    return tuple(text for text in texts if text in _CHANGES)
+    return tuple(text for text in texts if text in _CHANGES) or next(
+        (pair for pair in pairwise(texts) if pair[0] in ("every", "each", "per") and pair[1] in _PERIODS), ())
 
 
 def chooses(texts: Sequence[str]) -> bool:
@@ -98,8 +103,14 @@ def begins_partial(texts: Sequence[str]) -> tuple[str, ...]:
 
 
 def up_to(texts: Sequence[str]) -> tuple[str, ...]:
-    """`up to a constant`: what is left out is not said; none where the sentence has no such words."""
-    return ("up", "to") if ("up", "to") in pairwise(texts) else ()
+    """`up to a constant`, `to first order`: what is left out is not said; none where the sentence has no such words."""
+    order = next(((one, two) for one, two in pairwise(texts) if one in _ORDERS and two.startswith("order")), ())
+    return ("up", "to") if ("up", "to") in pairwise(texts) else order
+
+
+def in_coordinates(texts: Sequence[str]) -> tuple[str, ...]:
+    """`in the new coordinates`: letters and rates may be others there; none where it has no such words."""
+    return tuple(text for text in texts if text.startswith("coordinate") or text.endswith("-coordinates"))
 
 
 def revalues(texts: Sequence[str], given: bool) -> bool:

@@ -116,7 +116,7 @@ def _whole(said: Reading, texts: Sequence[str], taken: Sequence[str], bound: Seq
              for letter in giving.get(number, ())} or {fact for fact in said.facts if fact.startswith(DEFINE)}
     if said.shown or given:
         odd = understood.not_understood(taken, not given, any(map(understood.is_marked, given))) or (
-            (*bound, *(_STRANGERS & {*texts})) if given else ())
+            (*bound, *(_STRANGERS & {*texts})) if given else narrowing.in_coordinates(texts))
     else:
         odd = () if any("$" in fact for fact in said.facts) else understood.changed_by(texts)
     if odd:

@@ -17,7 +17,7 @@ from workbench.paper.source.reading import EVERYTHING, GIVING, Reading, heading_
 from workbench.paper.source.said import BEHIND, SaidText, quoted
 from workbench.paper.source.shown import Standing
 from workbench.paper.source.telling import of_a_motion
-from workbench.paper.source.understood import is_marked
+from workbench.paper.source.understood import along_another, is_marked
 from workbench.proof.latex.sides import letters_of_text
 
 ASIDE = {"remark", "note", "definition", "assumption"}  # environments that may speak of what stands around them
@@ -99,8 +99,12 @@ class Text(SaidText):
                    called: Mapping[str, Collection[str]]) -> Iterator[str]:
         """The sentences by which a display may mean something else."""
         sentence = self.passages.sentences[self.shown[display]]
-        moved = [self.passages.sentences[gift.at].place.headings for gift in self.gifts if gift.form != "inline"
-                 and gift.letter.startswith(RATE) and gift.letter.removeprefix(RATE)[:-1] in letters]
+        givers = [self.passages.sentences[gift.at] for gift in self.gifts if gift.form != "inline"
+                  and gift.letter.startswith(RATE) and gift.letter.removeprefix(RATE)[:-1] in letters]
+        said = [word.text for word in sentence.words]
+        if any(along_another(said, [word.text for word in giver.words]) for giver in givers):
+            yield self._told(self.shown[display])
+        moved = [giver.place.headings for giver in givers]
         for one in sentence.place.headings if moved and shows_rate(self.formulas[display].printed) else ():
             if one not in moved[0] and of_another([word.text for word in self.passages.headings[one]]):
                 yield f"the heading '{' '.join(word.text for word in self.passages.headings[one])}'"

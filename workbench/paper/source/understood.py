@@ -67,6 +67,9 @@ _NAMING = things.HEADS | things.OF_THEM
 _OTHERS = _words("other another old new left right front rear inner outer same")
 _MODELS = _words("model models linear")  # what belongs to a model may be none of the plant's
 _PLACES = _words("on at over within before after behind beyond")  # what is said of such a place holds there alone
+# Names of a plant that a filter's or an error's motion has none of.
+_OWN = moving.PLANTS - _words("system systems dynamics model models equation equations motion integrator")
+_NO_PLANTS = moving.FILTERS | moving.BESIDE | _words("error errors deviation deviations")
 _MOTIONS = _words("dynamics motion equation equations trajectories trajectory solutions solution")
 
 
@@ -146,6 +149,15 @@ def _misplaced(texts: Sequence[str], start: int, end: int, beside: bool) -> Iter
 def one_of_several(texts: Sequence[str]) -> tuple[str, ...]:
     """The words by which one of several things is meant, as `second motor`; none where there are no such."""
     return next((pair for pair in pairwise(texts) if pair[0] in _ORDINALS | _OTHERS and pair[1] in things.HEADS), ())
+
+
+def along_another(texts: Sequence[str], given_by: Sequence[str]) -> bool:
+    """Whether a sentence claims something along a plant, where the motion was given of a filter or an error alone.
+
+    texts: the sentence's words; given_by: those of the sentence that gives the motion.
+    """
+    behind = texts[texts.index("along") + 1:] if "along" in texts else ()
+    return bool(_OWN & {*behind} and _NO_PLANTS & {*given_by}) and not _OWN & {*given_by}
 
 
 def by_design(texts: Sequence[str]) -> bool:

@@ -27,6 +27,7 @@ from workbench.proof.latex.sides import (
     letter_latex,
     letters_in,
     letters_of_text,
+    motions_in,
     moving_sides,
     sides_of,
 )
@@ -136,7 +137,13 @@ class _Known:
         filled = {letter: entry.kind for letter, entry in table.items() if entry.kind}
         definitions = {left: right for row in rows if row.role == "definition"
                        for left, right in sides_of(text_of(row))}
-        flow = {left: right for row in rows if row.role == "dynamics" for left, right in moving_sides(text_of(row))}
+        motions = [one for row in rows if row.role == "dynamics" for one in motions_in(text_of(row))]
+        flow = {letter_latex(one.letter): one.rate for one in motions if one.order == 1}
+        for one in motions:
+            letter = letter_latex(one.letter)
+            if one.order == 2 and filled.get(letter, "vector") != "vector" and letter not in flow:
+                filled[one.below], self.table[one.below] = "real", LetterEntry(kind="real", role="state")
+                flow |= {letter: one.below, one.below: one.rate}
         self._defining = definitions
         self.definitions = in_order(definitions, set(filled))
         self.flow = {letter: right for letter, right in flow.items()

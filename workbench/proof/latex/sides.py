@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from dataclasses import fields, is_dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, fields, is_dataclass, replace
 from itertools import pairwise
 from typing import Any
 
 from workbench.proof.latex.derivatives import derivative
 from workbench.proof.latex.error import LatexError
+from workbench.proof.latex.notation import spelled
 from workbench.proof.latex.parts import parted
 from workbench.proof.latex.read import read_line
-from workbench.proof.latex.tree import PARTED, Chain, Group, Letter, Node, Product, Quotient, parts_of
+from workbench.proof.latex.tree import PARTED, Chain, Group, Letter, Node, Product, Quotient, Terms, parts_of
 
 RATES = ("dot", "ddot", "dddot")
+_EQUALS = ("=", r"\triangleq", r"\coloneqq")
+_ORDERS = {"dot": 1, "ddot": 2}  # of the rates that a line may give
 _LAYOUT = re.compile(r"\\(?:begin|end)\s*\{(?:aligned|split|gathered)\}|(?<!\\)&")
 _END = re.compile(r"(?<!\\right)(?:[\s,;.]|\\q?quad(?![A-Za-z])|\\[,;: ]?)+\Z")
 _OF_TIME = read_line("(t)").chains[0].sides[0]  # says nothing of the letter that it stands behind
@@ -89,14 +92,53 @@ def valued_in(text: str) -> set[str]:
 
 def moving_sides(text: str) -> Iterator[tuple[str, str]]:
     r"""Of every `rate of a letter = expression` the letter, and the expression as it is typed; of `M \dot v = u` the
-    expression over M."""
+    expression over M. A second rate, as of `m \ddot x + d \dot x = u`, is solved for."""
+    for one in motions_in(text):
+        yield letter_latex(one.letter), one.rate
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A letter as it is typed, with the dots of its rate, how many they are, and the expression that this rate is."""
+
+    letter: Letter
+    order: int
+    rate: str
+
+    @property
+    def below(self) -> str:
+        """The letter's first rate in LaTeX, where a line gives its second."""
+        return spelled(replace(self.letter, accents=(*self.letter.accents[:-1], "dot")))
+
+
+def motions_in(text: str) -> Iterator[Motion]:
+    """The motions that a line gives, of first and second order; none of lines that second rates couple."""
     for left, right in _equations(text):
-        *factors, last = left.factors if isinstance(left, Product) else (left,)
-        if not isinstance(last, Letter) or last.accents[-1:] != ("dot",) or "dot" in last.accents[:-1] or any(
-                set(one.accents) & set(RATES) for one in _letters(tuple(factors))):
-            continue
-        before = text[left.position:last.position] if factors else ""
-        yield letter_latex(last), rf"\frac{{{right}}}{{{_plain(before)}}}" if before else right
+        terms = [(sign, _without_time(one)) for sign, one in left.terms] if isinstance(left, Terms) else [(1, left)]
+        second = [one for one in (*_letters(left), *letters_in(right)) if {*one.accents} & {*RATES[1:]}]
+        for at, (sign, term) in enumerate(terms):
+            *factors, last = term.factors if isinstance(term, Product) else (term,)
+            order = _ORDERS.get(last.accents[-1], 0) if isinstance(last, Letter) and last.accents else 0
+            others = [one for _, one in terms[:at] + terms[at + 1:]]
+            alone = len(second) == 1 if order == 2 else not others
+            if not isinstance(last, Letter) or not order or not alone or {*last.accents[:-1]} & {*RATES} or any(
+                    {*one.accents} & {*RATES} for one in _letters(tuple(factors))):
+                continue
+            pieces = _pieces(text, terms) if others else []
+            rest = " ".join(pieces[:at] + pieces[at + 1:])
+            solved = f"{right} - ({rest.removeprefix('+ ')})" if others else right
+            factor = _plain(text[term.position:last.position]) if factors else ""
+            solved = rf"\frac{{{solved}}}{{{factor}}}" if factor else solved
+            yield Motion(last, order, f"-({solved})" if sign < 0 else solved)
+
+
+def _pieces(text: str, terms: Sequence[tuple[int, Node]]) -> list[str]:
+    """The terms of a side as they are typed, each with its sign."""
+    starts = [one.position for _, one in terms]
+    ends = [max(text.rfind("+", 0, place), text.rfind("-", 0, place)) for place in starts[1:]]
+    ends.append(min(place for sign in _EQUALS if (place := text.find(sign, starts[-1])) >= 0))
+    return [f"{'-' if sign < 0 else '+'} {_plain(text[start:end])}"
+            for (sign, _), start, end in zip(terms, starts, ends, strict=True)]
 
 
 def rated_in(text: str) -> set[str]:
@@ -121,7 +163,7 @@ def _equations(text: str) -> Iterator[tuple[Node, str]]:
     ends = [*(chain.position for chain in claimed[1:]), len(text)]
     for chain, end in zip(claimed, ends, strict=True):
         left = _without_time(chain.sides[0])
-        if chain.signs == ("=",) and isinstance(left, (Letter, Product)):
+        if chain.signs == ("=",) and isinstance(left, (Letter, Product, Terms)):
             start = chain.sides[1].position
             yield left, _END.sub("", _plain(text[_start(text, chain, start):end]))
 
@@ -135,7 +177,7 @@ def _without_time(side: Node) -> Node:
 
 def _start(text: str, chain: Chain, near: int) -> int:
     """Where the right side begins: behind the equality sign."""
-    return max(place + len(sign) for sign in ("=", r"\triangleq", r"\coloneqq")
+    return max(place + len(sign) for sign in _EQUALS
                if (place := text.rfind(sign, chain.position, near + 1)) >= 0)
 
 
