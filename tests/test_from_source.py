@@ -305,6 +305,7 @@ def test_rates_of_other_letters_within_a_rate_are_put_in():
 
 @pytest.mark.parametrize(("flow", "inputs", "words"), [
     ({"y": r"\dot x", "x": r"\dot y"}, (), "needs itself"),
+    ({"x": r"\dot x"}, (), "the rate is the rate"),
     ({"y": r"\dot e", "x": "1"}, ("r",), "rate of r, which has none"),
     ({"y": r"\frac{d}{dt} |x|", "x": "1"}, (), "may have none")])
 def test_a_rate_that_is_not_known_within_another_is_named(flow, inputs, words):

@@ -62,6 +62,11 @@ CONSTRAINED = (
     rf"{_LETTERS}The gain is $k = 1 + x^2$. Let $V = k x$. Then [[V = x]]",
 )
 PLAIN = (
+    r"The system is \begin{equation} m \dot v = u - b v , \end{equation} where $v \in \mathbb{R}$ is the speed, $u$ is "
+    r"the force, and $m, b > 0$ are constants. Let $v_r \in \mathbb{R}$ be the reference speed and define the error "
+    r"\begin{equation} e = v - v_r . \end{equation} The controller is \begin{equation} u = m \dot v_r + b v - k e "
+    r"\end{equation} with $k > 0$ constant. Let \begin{equation} V = \frac12 m e^2 . \end{equation} Then "
+    r"[[\dot V = -k e^2]]",
     f"{_PLANT}The control law is {_LAW}{_LOOP}", f"{_PLANT}The PD controller is given by {_LAW}{_LOOP}",
     f"{_PLANT}We propose the following control law: {_LAW}Substituting the control law into the plant yields "
     r"[[\dot x = -k x]]",

@@ -9,7 +9,15 @@ from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.parts import parted
 from workbench.proof.latex.read import read_line
 from workbench.proof.latex.rows import LetterEntry, RowEntry, text_of
-from workbench.proof.latex.sides import letter_latex, letters_of_text, letters_of_time, moving_sides, sides_of
+from workbench.proof.latex.sides import (
+    RATES,
+    letter_latex,
+    letters_in,
+    letters_of_text,
+    letters_of_time,
+    moving_sides,
+    sides_of,
+)
 from workbench.proof.latex.tree import Letter, Node, Number
 
 _FOR = re.compile(
@@ -34,6 +42,9 @@ _ARE_CONSTANTS = re.compile(
     r"|(?!piecewise|locally|almost|nearly|slowly|not|no)[a-z-]+\s+constants?(?=[\s]*(?:[,.;]|and\b|of\b|\Z)))",
     re.IGNORECASE)
 _INPUTS = re.compile(r"\b(?:disturbances?|inputs?|references?)\b[^.,;:$]{0,30}" + _LIST, re.IGNORECASE)
+_ARE_REFERENCES = re.compile(
+    _LIST + r"\s*(?:be|are|is|denotes?)\s+(?:an?\s+|the\s+)?(?:desired|reference|commanded|prescribed)\s+[a-z]+",
+    re.IGNORECASE)
 _CONDITIONAL = re.compile(
     r"\b(?:if|when|whenever|unless|otherwise|either|or|not|without|then|impl\w+|(?:all|every|any|each)\b.*\bexists?)\b"
     r"|\\(?:forall|exists|Rightarrow|implies|to|rightarrow)(?![A-Za-z])", re.IGNORECASE | re.DOTALL)
@@ -119,7 +130,7 @@ def table_of(rows: list[RowEntry], facts: str, text: str) -> dict[str, LetterEnt
     kinds = dict.fromkeys((*_named(_POSITIVE, facts), *_named(_ARE_POSITIVE, facts)), "positive") | kinds
     constant = {*_named(_ARE_CONSTANTS, facts)} - _printed_of_time(text, rows)
     constants = {*_named(_CONSTANTS, facts)} - _printed_of_time(text, rows) | constant
-    inputs = set(_named(_INPUTS, facts))
+    inputs = {*_named(_INPUTS, facts)} | ({*_named(_ARE_REFERENCES, facts)} & _rated(rows))
     unclear = set(_valued_elsewhere(text))
     entries = {}
     for letter in found:
@@ -213,6 +224,12 @@ def _around(text: str, start: int, end: int) -> str:
     """The sentence in which a piece of a text stands."""
     before, behind = text[max(start - _REACH, 0):start], text[end:end + _REACH]
     return f"{_SENTENCE.split(before)[-1]} {text[start:end]} {_SENTENCE.split(behind)[0]}"
+
+
+def _rated(rows: list[RowEntry]) -> set[str]:
+    """The letters of which a rate is printed."""
+    return {letter_latex(one) for row in rows if row.role != "words" for one in letters_in(text_of(row))
+            if one.accents[-1:] and one.accents[-1] in RATES}
 
 
 def _printed_of_time(text: str, rows: list[RowEntry]) -> set[str]:

@@ -20,7 +20,7 @@ PLANTS = _words("""
     rectifier oscillator beam ball plate mass integrator mass-spring-damper heater room building
     house boiler furnace oven exchanger incubator greenhouse freezer refrigerator column bioreactor fermenter chemostat
     population epidemic microgrid grid gyroscope telescope disk disc hovercraft unicycle
-    segway maglev levitation ball-and-beam drivetrain powertrain drive
+    segway maglev levitation ball-and-beam drivetrain powertrain drive arm
 """)
 # What is said of a plant that is still the same one: what it is made of, and what its equation looks like.
 LIKE = _words("""

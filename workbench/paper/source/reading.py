@@ -204,7 +204,8 @@ def classes_of(words: Sequence[Word]) -> list[str]:
 def _word_class(text: str, before: str, behind: Word | None) -> str:
     if text in ("error", "errors"):
         signal = before in vocabulary.BEFORE_ERROR or (behind is not None and (
-            behind.kind == "math" or behind.text in ("dynamics", "system", "variable", "variables", "signal")))
+            behind.kind in ("math", "display") or behind.text in (
+                "dynamics", "system", "variable", "variables", "signal")))
         return forms.ERROR if signal else text
     parts = text.split("-")
     if len(parts) > 1 and text not in forms.KNOWN and all(

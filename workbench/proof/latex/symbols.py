@@ -178,6 +178,10 @@ def _written_out(path: Path, flow: Mapping[sp.Expr, sp.Expr], inputs: Collection
         moved = sorted(part.free_symbols & flow.keys(), key=str)
         return sp.Add(*(sp.diff(part, symbol) * flow[symbol] for symbol in moved))
 
+    for moving, rate in flow.items():
+        if rate == D(moving):
+            raise InputError(path, f"flow.{moving}", f"says that the rate is the rate: add the rate as a letter under "
+                             f"[symbols], as '\\dot {moving}', and give it its own rate under [flow]")
     found = dict(flow)
     for _ in flow:
         for moving, rate in found.items():
