@@ -15,7 +15,7 @@ from workbench.proof.building import built
 from workbench.proof.checker import CertificateError, check, roots_of
 from workbench.proof.claim import Claim, Decision, Goal, Relation, Verdict, latex, name_of
 from workbench.proof.decide.cuts import after
-from workbench.proof.decide.first_lemmas import definedness_of_rates
+from workbench.proof.decide.first_lemmas import definedness_of_goal
 from workbench.proof.decide.method import method_of
 from workbench.proof.decide.nearest import smallest_margin
 from workbench.proof.decide.number_roots import with_root_squares
@@ -178,7 +178,7 @@ def attempted_proof(goal: Goal) -> Certificate | str:
             return missing or found
         certificate, missing = _accepted(goal, record, with_roots_of_squares(
             goal, usual, with_root_squares(record, found)))
-        if certificate is None and "not shown" in missing and (first := definedness_of_rates(usual)):
+        if certificate is None and "not shown" in missing and (first := definedness_of_goal(usual)):
             more = proofs_of(replace(usual, assume=(*usual.assume, *(lemma for lemma, _ in first))))
             if not isinstance(more, str):
                 certificate, missing = _accepted(goal, record, [after(first, proof) for proof in more])

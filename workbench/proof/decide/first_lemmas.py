@@ -42,10 +42,12 @@ def definedness(goal: Goal, shown: Relation, given: Given) -> list[Lemma]:
     return _shown(goal, _partial(shown), given)
 
 
-def definedness_of_rates(goal: Goal) -> list[Lemma]:
-    """The same of the rates of the goal's flow: that an inertia m (2 + cos(q)) is positive."""
+def definedness_of_goal(goal: Goal) -> list[Lemma]:
+    """The same of all that a goal shows, before its cases are looked at, and of the rates of its flow: that an inertia
+    m (2 + cos(q)) is positive."""
     rates = (Relation(rate, "==", sp.S.Zero) for rate in goal.flow.values())
-    return _shown(goal, list(dict.fromkeys(wanted for rate in rates for wanted in _partial(rate))), assumptions(goal))
+    return _shown(goal, list(dict.fromkeys(wanted for one in (*rates, *goal.show) for wanted in _partial(one))),
+                  assumptions(goal))
 
 
 def _shown(goal: Goal, wanted_signs: list[Relation], given: Given) -> list[Lemma]:
@@ -174,12 +176,23 @@ def _seen_at_once(wanted: Relation, given: Given) -> bool:
 
 def _signed(goal: Goal, wanted: Relation, given: Given) -> Lemma | None:
     """What is wanted, or of a denominator that it is negative, with a proof; None where there is none."""
+    left = _over_positive(wanted.left, given)
     for turn in (1, -1) if wanted.operator == ">" else (1,):
-        lemma = Relation(sp.expand(turn * wanted.left), wanted.operator, sp.S.Zero)
+        lemma = Relation(sp.expand(turn * left), wanted.operator, sp.S.Zero)
         proof = find_combination(goal, lemma, given, quick=True) or find_squares(goal, lemma, given)
         if proof is not None:
             return lemma, proof
     return None
+
+
+def _over_positive(left: sp.Expr, given: Given) -> sp.Expr:
+    """The numerator of what has a positive denominator, by which the checker sees its sign: of 1 - e**2/b**2 that is
+    b**2 - e**2. What has none stays as it is."""
+    above, below = sp.fraction(sp.together(left))
+    try:
+        return above if below.free_symbols and positive_by_terms(sp.expand(below), goal_atoms(given)) else left
+    except ClaimError:  # functions stand in it
+        return left
 
 
 def _squares_in(margin: sp.Expr) -> list[tuple[sp.Expr, sp.Expr]] | None:
