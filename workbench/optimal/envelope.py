@@ -115,10 +115,17 @@ def _pass(b: Array, target: Array, start: float, step: Array, line: Array, drag:
           is_strict: bool) -> int:
     """Lower b, a copy of the target, to the largest that the limits allow; where it cannot go on, or -1.
 
-    Strictly at every point of each cell, else to the second order of its length.
+    Strictly at every point of each cell, else to the second order of its length. Most cells reach their target, which
+    is looked at first.
     """
     b[0] = min(start, target[0])
     for k in range(len(step)):
+        aimed = target[k + 1]
+        if is_strict and aimed > 0.0 and aimed - b[k] + ROUNDING * max(b[k], aimed) <= step[k] * _allowed(
+                b[k], aimed, sign, (line[k, 0], line[k, 1]), (drag[k, 0], drag[k, 1]), usable[k], numbers, limits,
+                tables):
+            b[k + 1] = aimed
+            continue
         first = _slope(b[k], sign, line[k, 0], drag[k, 0], numbers, limits, tables)
         middle = max(b[k] + step[k] / 2 * first, 0.0)
         slope = _slope(middle, sign, (line[k, 0] + line[k, 1]) / 2, (drag[k, 0] + drag[k, 1]) / 2, numbers, limits,
