@@ -366,3 +366,8 @@ def test_a_rate_that_a_lemma_claims_moves_nothing_and_a_display_of_tex_hides_no_
     assert {name: found.verdicts[name] for name in ("1-2", "2", "3")} == {
         "1-2": "refuted", "2": "undecided", "3": "proved"}
     assert not {"d", "t"} & load_record(found.folder / SYMBOLS, LettersFile).letters.keys()
+
+
+@pytest.mark.parametrize("text", ["where\n\n,\n\n", "## References\n\n..\n\n", ", .\n\n"])
+def test_a_sentence_of_marks_alone_says_nothing(text):
+    assert len(read_source(f"We have\n\n$$x^2 \\ge 0$$\n\n{text}and\n\n$$y^2 \\ge 0$$\n").rows) == 2

@@ -69,6 +69,8 @@ def read_sentence(sentence: Sentence, body: str, assuming: bool = False, given: 
     asks = words[-1].text == "?"
     while words and words[-1].kind == "mark" and words[-1].text in ".!;,":
         words = words[:-1]
+    if not words:  # marks alone, as of a rule or a list
+        return Reading()
     letters = frozenset(letter for word in words if word.kind == "math" for letter in letters_within(word.text))
     shown = [int(word.text) for word in words if word.kind == "display"]
     if words[0].kind == "table":
