@@ -26,6 +26,7 @@ def _plant(push: sp.Expr = u, **more: object) -> wb.Plant:
     (lambda: _plant(sp.Piecewise((u, x > 0))), "end it with"),
     (lambda: _plant().rates_at([1, 2, 3]), "give a list of 2 numbers, x, v"),
     (lambda: _plant().rates_at({"x": 1, "v": 2}), "give a list of 2"),  # type: ignore[arg-type]
+    (lambda: _plant().rates_at("xv"), "give a list of 2 numbers"),  # type: ignore[arg-type]
     (lambda: wb.closed_loop(LAW, _plant()), "give the Plant, then the law"),  # type: ignore[arg-type]
     (lambda: wb.margins(LAW, _plant()), "give the Plant, then the law"),  # type: ignore[arg-type]
     (lambda: wb.PlantMpc(10.0, {"x": 1.0}), "whole numbers"),  # type: ignore[arg-type]

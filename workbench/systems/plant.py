@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -203,7 +204,8 @@ class Plant:
         """
         for kind, given, symbols in (("states", states, self.states), ("inputs", inputs, self.inputs),
                                      ("disturbances", disturbances, self.disturbances)):
-            if isinstance(given, Mapping) or (len(given) != len(symbols) and (len(given) or kind == "states")):
+            numbers = not isinstance(given, Mapping) and all(isinstance(one, Real) for one in given)
+            if not numbers or (len(given) != len(symbols) and (len(given) or kind == "states")):
                 raise ValueError(f"plant '{self.id}': {kind} = {given}: give a list of {len(symbols)} numbers, "
                                  f"{', '.join(map(str, symbols)) or 'none'}")
         return np.array(self._numeric(self.moves)(t, *states, *self._all(inputs, self.inputs),

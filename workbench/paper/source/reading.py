@@ -69,13 +69,11 @@ def read_sentence(sentence: Sentence, body: str, assuming: bool = False, given: 
     asks = words[-1].text == "?"
     while words and words[-1].kind == "mark" and words[-1].text in ".!;,":
         words = words[:-1]
-    if not words:  # marks alone, as of a rule or a list
-        return Reading()
     letters = frozenset(letter for word in words if word.kind == "math" for letter in letters_within(word.text))
     shown = [int(word.text) for word in words if word.kind == "display"]
-    if words[0].kind == "table":
+    if words and words[0].kind == "table":
         return Reading(letters=letters, restricted=letters)
-    if all(word.kind in ("display", "mark") for word in words):
+    if all(word.kind in ("display", "mark") for word in words):  # or no word at all, as in a rule or a list
         return Reading(dict.fromkeys(shown, "bare"))
     classes = classes_of(words)
     texts = [word.text if word.kind == "word" else "" for word in words]
