@@ -19,6 +19,8 @@ from workbench.simulate.closed_loop import NOMINAL, Factors
 # By which names files know the kinds of MPC.
 MPC_NAMES = {kind.replace(".", "_"): kind for kind in MPC_KINDS}
 MPC_TITLES = {name: KINDS[kind].title for name, kind in MPC_NAMES.items()}
+# For a table's note, where the tuning changes what is run.
+SHORTER = " The tuning's runs are shorter than these, see the file."
 WEIGHTS = ("position_weight", "speed_weight", "command_weight", "change_weight")
 
 

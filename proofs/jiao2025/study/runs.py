@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -16,7 +15,6 @@ from workbench.paper.tracked import Tracked
 
 from .. import laws
 from ..laws import TRIAL_LAWS
-from ..simulation.mpc_trip import MpcTrip
 from ..simulation.plans import Case, plan
 from ..simulation.trials import TrialRun, run_trials
 from .record import JiaoStudy, Shown
@@ -67,9 +65,7 @@ def name_of(study: JiaoStudy, case: Case) -> str:
 
 @dataclass(frozen=True)
 class JiaoResults(Results[JiaoStudy, Case, TrialRun]):
-    """The study and its runs; of_mpc: (reading, kind) -> trip."""
-
-    of_mpc: Mapping[tuple[str, str], MpcTrip] = field(default_factory=dict)
+    """The study and its runs by what tables, figures and findings ask for."""
 
     def run(self, reading: str, law: str, **other: Any) -> TrialRun:
         """The run of a law in a reading; other: what of its case is not as stated."""
