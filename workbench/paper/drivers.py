@@ -19,8 +19,6 @@ from workbench.simulate.closed_loop import NOMINAL, Factors
 # By which names files know the kinds of MPC.
 MPC_NAMES = {kind.replace(".", "_"): kind for kind in MPC_KINDS}
 MPC_TITLES = {name: KINDS[kind].title for name, kind in MPC_NAMES.items()}
-# For a table's note, where the tuning changes what is run.
-SHORTER = " The tuning's runs are shorter than these, see the file."
 WEIGHTS = ("position_weight", "speed_weight", "command_weight", "change_weight")
 
 
@@ -95,8 +93,9 @@ def tuning_words(tuning: StudyTuning) -> str:
     """For a table's note: what tuned rows were tuned for, and within which budget."""
     units = {"position_rms": "position", "speed_rms": "speed", "logged_jerk_rms": "logged jerk"}
     parts = " + ".join(f"{units[name]} RMS/{unit:g}" for name, unit in tuning.objective.units.items())
+    shorter = " The tuning's runs are shorter than these, see the file." if tuning.set else ""
     return (f"Tuned: by 'workbench tune', {tuning.runs} runs with one optimiser and seed for each controller, to the "
-            f"least {parts}; the paper's parameters stay as their own rows.")
+            f"least {parts}; the paper's parameters stay as their own rows.{shorter}")
 
 
 def checked(drivers: Drivers) -> Callable[[Any, Path], Any]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from workbench.paper.cells import Cell, Column, Phrase
 from workbench.paper.comparison import STEP
-from workbench.paper.drivers import SHORTER, Drivers, tuning_words
+from workbench.paper.drivers import Drivers, tuning_words
 from workbench.paper.mpc_comparison import JERK, best_words, counters_words
 from workbench.paper.only_full import shortened
 from workbench.paper.pairs import METRIC_NAMES, STATES
@@ -162,8 +162,8 @@ class LearningComparison:
 
     def _note(self, study: Any, rows: Rows) -> str:
         counted = [row["counters"] for row in rows.values() if row.get("counters")]
-        tuned = (f"{tuning_words(study.tuning)}{SHORTER if study.tuning.set else ''} A law is held against MPC in the "
-                 "same state, stated or tuned." if study.tuning else "")
+        tuned = (f"{tuning_words(study.tuning)} A law is held against MPC in the same state, stated or tuned."
+                 if study.tuning else "")
         return " ".join(part for part in (
             f"Of laws that learn the last of {study.trials.count} trials.", self.note(study),
             f"MPC counted {counters_words(counted)}." if counted else "", tuned) if part)

@@ -64,9 +64,16 @@ def case_title(study: Any, case: Any) -> str:
 
 
 def plain_row(study: Any, case: Any, run: Any) -> dict[str, Any]:
-    """The fields of a case, its change by the title, and those of the run's own that are a number, a word or None."""
-    plain = {key: value for key, value in vars(run).items() if value is None or isinstance(value, int | float | str)}
-    return _case_words(study, case) | plain
+    """The fields of a case, its change by the title, and those of the run's own that are a number, a word or None.
+
+    Of a run with a `row` of its own, that with the fields of the case.
+    """
+    fields = _plain(_case_words(study, case))
+    return fields | (dict(run.row) if hasattr(run, "row") else _plain(vars(run)))
+
+
+def _plain(values: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in values.items() if value is None or isinstance(value, int | float | str)}
 
 
 @dataclass(frozen=True)

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
-from workbench.paper.comparison import ComparedRun, Task, TripComparison, compared_row, comparison_note, driven
+from workbench.paper.comparison import ComparedRun, Task, TripComparison, compared_row, driven
 from workbench.paper.drivers import MPC_NAMES, MPC_TITLES, Drivers, keys_in
+from workbench.paper.reproduced import STATED
 from workbench.simulate.closed_loop import NOMINAL, Factors
 
 from .. import plant
 from ..laws import FEEDBACK_GAINS, LAWS
 from ..simulation.trip import davis_newton, run_under, setting_of
 from .record import LiuStudy
-from .runs import COMPARED_LAWS, LiuResults, RunCase, compared, left_out, run_cases
+from .runs import COMPARED_LAWS, RunCase, left_out, run_cases
 
 # What is held against MPC: the laws with their signs corrected, by speed and by the position alone.
 LAW_NAMES = {law.rpartition(".")[2]: LAWS[law] for law in COMPARED_LAWS}
@@ -66,23 +67,13 @@ def drawn_runs(study: LiuStudy, runs: Sequence[ComparedRun]) -> tuple[list[Compa
     return chosen, study.disturbances[study.runs.table_3_disturbance].title
 
 
-def note(study: LiuStudy, runs: Sequence[ComparedRun]) -> str:
-    """For the table of the comparison."""
-    return comparison_note(study, runs, study.sampling.period_s,
-                           shorter="The tuning's line is shorter than this one, see the file.")
-
-
-def own_tasks(study: LiuStudy) -> dict[Task, RunCase]:
+def own_cases(study: LiuStudy) -> dict[Task, RunCase]:
     """What the comparison need not run again: the study's own runs of the laws and columns that it compares."""
     names = {law.id: name for name, law in LAW_NAMES.items()}
     return {Task(case.disturbance, names[case.law], value_words(case.column)): case for case in run_cases(study)
-            if compared(study, case) and not left_out(study, case)}
+            if case.law in COMPARED_LAWS and case.column in study.compared_columns
+            and (case.change, case.leak_rate_per_s) == (STATED, None) and not left_out(study, case)}
 
 
-def own_rows(results: LiuResults) -> dict[Task, Mapping[str, Any]]:
-    """The rows of `own_tasks`."""
-    return {task: row for task, case in own_tasks(results.study).items()
-            if (row := results.runs[case].compared) is not None}
-
-
-COMPARISON = TripComparison(DRIVERS, "disturbance", note, drawn_runs, TOLD, own_tasks=own_tasks, own_rows=own_rows)
+COMPARISON = TripComparison(DRIVERS, "disturbance", lambda study: study.sampling.period_s, drawn_runs, TOLD,
+                            own_cases=own_cases)

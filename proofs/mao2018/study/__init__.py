@@ -11,5 +11,5 @@ from .record import MaoStudy
 from .runs import MaoResults, left_out, name_of, run_case, run_cases, steps_of, track
 from .tables import TABLES
 
-KIND = Reproduction(MaoStudy, run_cases, run_case, name_of, lambda study, case, run: run.row, MaoResults, TABLES, PLOTS,
-                    FINDINGS, COMPARISON, track, steps_of, left_out=left_out).kind
+KIND = Reproduction(MaoStudy, run_cases, run_case, name_of, results=MaoResults, tables=TABLES, plots=PLOTS,
+                    findings=FINDINGS, beside=COMPARISON, track=track, work=steps_of, left_out=left_out).kind

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from workbench.mpc.controller import KINDS
-from workbench.paper.comparison import ComparedRun, Task, TripComparison, compared_row, comparison_note, driven
+from workbench.paper.comparison import ComparedRun, Task, TripComparison, compared_row, driven
 from workbench.paper.drivers import MPC_TITLES, Drivers, keys_in
 from workbench.simulate.closed_loop import NOMINAL, Factors, Run
 
@@ -65,19 +65,15 @@ def with_own_runs(results: MaoResults, others: Sequence[ComparedRun]) -> list[Co
         if results.wrong(number):
             chosen = {"as printed": results.printed(number, results.first_tuning),
                       DRIVERS.titles[LAW]: results.corrected(number, results.first_tuning)}
-        own += [ComparedRun(Task(str(number), LAW), title, run.row | {
-            "curve": (run.curves["error"].x, run.curves["error"].y)}) for title, run in chosen.items()]
+        own += [ComparedRun(Task(str(number), LAW), title, run.compared) for title, run in chosen.items()]
     return sorted((*own, *others), key=lambda run: (int(run.task.place), run.task.tuned))
 
 
-def note(study: MaoStudy, runs: Sequence[ComparedRun]) -> str:
-    """For the table of the comparison."""
-    tuning = next(iter(study.tunings.values()))
-    return f"{tuning.title}; " + comparison_note(
-        study, runs, tuning.period_s,
-        f"MPC: {KINDS['mpc.offset_free'].information}, that of mode (i) with all motors healthy; the laws: full state, "
-        "parameters unknown, times of the modes and frequencies of the failure known.",
-        "The tuning's runs are shorter than these and of some of the cases, see the file.")
+def note(study: MaoStudy) -> str:
+    """Who knows what."""
+    return (f"The laws: {next(iter(study.tunings.values())).title}, full state, parameters unknown, times of the modes "
+            f"and frequencies of the failure known. MPC: {KINDS['mpc.offset_free'].information}, that of mode (i) with "
+            "all motors healthy.")
 
 
 def drawn_runs(study: MaoStudy, runs: Sequence[ComparedRun]) -> tuple[list[ComparedRun], str]:
@@ -86,4 +82,5 @@ def drawn_runs(study: MaoStudy, runs: Sequence[ComparedRun]) -> tuple[list[Compa
     return [run for run in runs if run.task.place == case], f"case {case}"
 
 
-COMPARISON = TripComparison(DRIVERS, "case", note, drawn_runs, with_own=with_own_runs)
+COMPARISON = TripComparison(DRIVERS, "case", lambda study: next(iter(study.tunings.values())).period_s, drawn_runs,
+                            note=note, with_own=with_own_runs)

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -12,8 +10,9 @@ from workbench.model.desired_curve import DesiredCurve
 from workbench.paper.reproduced import STATED, Results
 from workbench.paper.results import Curve, thinned
 from workbench.paper.tracked import Tracked, of_run
+from workbench.paper.trip_run import ERROR, TripRun, error_curve, thinned_log, trip_numbers
 from workbench.simulate.closed_loop import Run
-from workbench.simulate.metrics import measure_run, rms
+from workbench.simulate.metrics import rms
 from workbench.simulate.stretches import Stretch, stretches
 
 from .. import laws
@@ -41,17 +40,10 @@ class RunCase:
 
 
 @dataclass(frozen=True)
-class RunResult:
-    """What a run leaves: a row of numbers, its stretches between events (those it finished), curves over time.
+class RunResult(TripRun[RunCase]):
+    """stretches: those between events that a run finished; late: see `late_errors`."""
 
-    late: of a run to the end, RMS and size of the position errors from SETTLED_S on.
-    """
-
-    case: RunCase
-    row: dict[str, Any]
     stretches: tuple[Stretch, ...]
-    curves: dict[str, Curve]
-    failed: str | None
     late: tuple[float, float] | None
 
     @property
@@ -131,17 +123,13 @@ def run_case(study: MaoStudy, of: RunCase) -> RunResult:
     """Run, and take what tables and figures need; a run that failed has its numbers up to its end."""
     run, case = simulate(study, of), study.cases[of.number - 1]
     found = stretches(run, event_times(study), study.horizon.settled_window_s)
-    curves = {"error": thinned("position error", run.column("t_s"), run.position_error)}
-    if of.change == STATED and of.end_s is None:
-        curves |= _more_curves(study, case, run)
-    row = measure_run(run, float(study.reference.curve().length_m)).row() | {
-        "controller": run.controller, "case": of.number, "tuning": of.tuning, "law": law_words(study, of),
-        "change": study.change_title(of.change), "period_s": run.period_s, "end_s": run.end_s,
-        "command_reversals_per_s": run.totals["command_reversals"] / max(run.end_s, run.period_s),
-        "command_change_mps2": run.totals["command_variation_mps2"] / max(1.0, run.totals["commands"]),
-        "loop_gain": _loop_gain(study, case, run), "failure_learned_n": _failure_learned(study, case, run)}
-    row = {key: None if isinstance(value, float) and not math.isfinite(value) else value for key, value in row.items()}
-    return RunResult(of, row, found, curves, run.failed, late_errors(run))
+    more = _more_curves(study, case, run) if of.change == STATED and of.end_s is None else {}
+    row = trip_numbers(
+        run, float(study.reference.curve().length_m), law=law_words(study, of),
+        command_reversals_per_s=run.totals["command_reversals"] / max(run.end_s, run.period_s),
+        command_change_mps2=run.totals["command_variation_mps2"] / max(1.0, run.totals["commands"]),
+        loop_gain=_loop_gain(study, case, run), failure_learned_n=_failure_learned(study, case, run))
+    return RunResult(of, row, {ERROR: error_curve(run)} | more, found, late_errors(run))
 
 
 def late_errors(run: Run) -> tuple[float, float] | None:
@@ -186,17 +174,13 @@ def _failure_learned(study: MaoStudy, case: CaseData, run: Run) -> float | None:
 
 def _more_curves(study: MaoStudy, case: CaseData, run: Run) -> dict[str, Curve]:
     """Start, distance, command and, of laws that estimate failures, the force they take the failed motor to give."""
-    time = run.column("t_s")
-    first = time <= START_S
-    curves = {"start": thinned("start", time[first], run.position_error[first]),
-              "distance": thinned("distance", time, run.column("s_m")),
-              "desired": thinned("desired distance", time, run.column("s_desired_m")),
-              "command": thinned("command", time, run.column("u_mps2"))}
+    time, columns = run.column("t_s"), {"distance": "s_m", "desired": "s_desired_m", "command": "u_mps2"}
+    logged, first = {name: run.column(column) for name, column in columns.items()}, time <= START_S
     if case.law != "healthy":
         varpi = np.sin(study.law.omega_rad_s * time + study.law.phase_rad)
         estimate = study.train.motors * (run.column("xi_hat_0") + run.column("xi_hat_1") * varpi)
-        curves["failure"] = thinned("estimate", time, study.law.force_unit_n / KILONEWTON * estimate)
-    return curves
+        logged["failure"] = study.law.force_unit_n / KILONEWTON * estimate
+    return thinned_log(run, logged) | {"start": thinned("start", time[first], run.position_error[first])}
 
 
 @dataclass(frozen=True)
