@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
@@ -51,7 +51,7 @@ def trip_numbers(run: Run, length_m: float, **own: float | str | None) -> dict[s
 
 def signal_numbers(run: Run, signals: Mapping[str, Array]) -> dict[str, float | None]:
     """Of each signal over the log, by name, `_rms`, `_min` and `_max`; None of a run that failed."""
-    measures = {"rms": rms, "min": np.min, "max": np.max}
+    measures: dict[str, Callable[[Array], float]] = {"rms": rms, "min": np.min, "max": np.max}
     return {f"{name}_{what}": None if run.failed else float(measure(values))
             for name, values in signals.items() for what, measure in measures.items()}
 

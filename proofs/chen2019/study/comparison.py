@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -14,7 +14,6 @@ from workbench.paper.cells import Column
 from workbench.paper.comparison import STEP
 from workbench.paper.drivers import Drivers, keys_in
 from workbench.paper.learning_comparison import LearningComparison, Task
-from workbench.paper.results import ResultTable
 from workbench.simulate.closed_loop import NOMINAL, Factors
 
 from .. import laws
@@ -113,15 +112,3 @@ def note(study: ChenStudy) -> str:
 DRIVERS = Drivers({LAW: "the law", MPC: MultiCarMpc.title}, places, keys, drive, drive_together=drive_together)
 COMPARISON = LearningComparison(DRIVERS, COLUMNS, ("position_rms", "speed_rms"), own_tasks=stated_tasks,
                                 own_rows=stated_rows, note=note)
-
-
-def longer_trains(results: ChenResults) -> Iterator[ResultTable]:
-    """What a step of MPC and a sample of the law cost for trains of several lengths; nothing without MPC."""
-    study, measured = results.study, results.measured
-    if study.mpc is not None and measured.longer:
-        yield ResultTable(
-            "A step of MPC for trains of several lengths", "comparison",
-            ("cars", Column("a step of MPC", "µs", 1e-6), Column("p99", "µs", 1e-6),
-             Column("a sample of the law", "µs", 1e-6)),
-            tuple((one.cars, one.step_s, one.step_s_p99, measured.sample_s[one.cars]) for one in measured.longer),
-            f"The first {study.cost.end_s:g} s of the trip, {study.mpc.horizon} samples ahead.")

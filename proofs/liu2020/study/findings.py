@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from workbench.files.numbers import number
-from workbench.paper.findings import LackingError, needed, some, span
+from workbench.paper.findings import needed, required, some, span
 
 from ..laws import LAWS
 from ..simulation.trip import desired_curve
@@ -125,8 +125,7 @@ def _control_gain(results: LiuResults) -> str:
     for columns in ((5, 6), (7, 8)):
         for name in ("position_m", "speed_mps"):
             pair, of = _values(results, CORRECTED, name, columns), QUANTITIES[name]
-            if not _falls(pair):
-                raise LackingError
+            required(_falls(pair))
             said.append(f"{of.title} from {number(pair[0])} to {number(pair[1])} {of.unit}")
     return f"More control gain tracks better, as the paper says: Values 5 to 6 and 7 to 8 take {', '.join(said)}."
 
@@ -147,22 +146,19 @@ def _energy(results: LiuResults) -> Iterator[str]:
 def _slow_disturbance(results: LiuResults) -> str:
     """The energy that the slow disturbance can add at most, from its force and the way that is left."""
     study, names = results.study, list(results.study.disturbances)
-    if not {"none", "slow"} <= set(names):
-        raise LackingError
+    required({"none", "slow"} <= set(names))
     printed = study.table_4.energy[names.index("slow")] - study.table_4.energy[names.index("none")]
     push, curve = study.disturbances["slow"], desired_curve(study)
     force = push.largest_n / study.train.chi
     most = force * (curve.length_m - float(curve.at(np.array([push.from_s]))[0][0]))
-    if most >= printed:
-        raise LackingError
+    required(most < printed)
     return (f"Table 4 has the slow disturbance cost {number(printed / 1e11)}·10¹¹ more than none. It takes at most "
             f"{force / 1e6:.2f} MN to balance from {push.from_s:g} s on, at most {number(most / 1e11)}·10¹¹ J over the "
             f"way that is left here: the paper's trip must be far longer, or its energy another quantity.")
 
 
 def _signs(results: LiuResults) -> str:
-    if not results.study.changes:
-        raise LackingError
+    required(bool(results.study.changes))
     runs = results.study.runs
     pairs = [(column, rate) for column in runs.divergence_columns for rate in runs.divergence_leak_rates_per_s]
     by_law = {law: [(rate, results.divergence(column, law, rate)) for column, rate in pairs] for law in SIGN_LAWS}
