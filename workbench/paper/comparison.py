@@ -13,14 +13,11 @@ from workbench.files.units import KWH_J
 from workbench.mpc.controller import KINDS
 from workbench.paper.cells import Cell, Column
 from workbench.paper.drivers import MPC_NAMES, Drivers, tuning_words
-from workbench.paper.mpc_comparison import best_words, counters_words, differing, known, run_mpc
+from workbench.paper.mpc_comparison import best_words, counters_words
 from workbench.paper.only_full import shortened
 from workbench.paper.results import Curve, Plot, ResultTable, Shown
 from workbench.paper.stages import Stage
-from workbench.paper.trip_run import error_curve
-from workbench.simulate.closed_loop import NOMINAL, Factors, Run, Setting
-from workbench.simulate.metrics import measure_run
-from workbench.trains.train import Plant
+from workbench.simulate.closed_loop import NOMINAL
 
 STEP = Column("time a step", "µs", 1e-6)
 COLUMNS = (Column("position RMS", "m"), Column("speed RMS", "m/s"), Column("largest |position error|", "m"),
@@ -55,23 +52,6 @@ class ComparedRun:
     def label(self) -> str:
         """The controller as tables and figures have it."""
         return f"{self.title}, tuned" if self.task.tuned else self.title
-
-
-def driven(study: Any, name: str, nominal: Setting, factors: Factors, law: Callable[[Setting], Run], mass_kg: float,
-           davis_n: tuple[float, float, float], plant: Plant) -> Run:
-    """A controller's run of a train that differs by factors from the nominal setting.
-
-    A law runs as it runs in a setting; MPC, by its name, knows mass_kg and davis_n, the nominal curve and its limits.
-    """
-    setting = differing(nominal, factors)
-    if name not in MPC_NAMES:
-        return law(setting)
-    return run_mpc(known(study.mpc, nominal.curve, mass_kg, davis_n, nominal.end_s), MPC_NAMES[name], setting, plant)
-
-
-def compared_row(run: Run, length_m: float) -> dict[str, Any]:
-    """The row of a run over a line of that length: its metrics, what was counted, its position error over time."""
-    return measure_run(run, length_m).row() | {"curve": error_curve(run)}
 
 
 def _no_cases(study: Any) -> Mapping[Task, Hashable]:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
-from workbench.paper.comparison import ComparedRun, Task, TripComparison, compared_row, driven
+from workbench.paper.comparison import ComparedRun, Task, TripComparison
 from workbench.paper.drivers import MPC_NAMES, MPC_TITLES, Drivers, keys_in
 from workbench.paper.reproduced import STATED
-from workbench.simulate.closed_loop import NOMINAL, Factors
+from workbench.paper.trip_drive import TripDrive
+from workbench.simulate.closed_loop import Run, Setting
 
 from .. import plant
 from ..laws import FEEDBACK_GAINS, LAWS
@@ -34,16 +34,14 @@ def keys(study: LiuStudy, name: str) -> dict[str, str]:
     return gains | keys_in("adaptation", ADAPTATION) | keys_in("sampling", FILTER if name == "position_only" else ())
 
 
-def drive(study: LiuStudy, name: str, place: str, factors: Factors = NOMINAL) -> dict[str, Any]:
-    """One trip under a disturbance, of a law with the gains of Table 4's column.
+def _law(study: LiuStudy, name: str, place: str, setting: Setting) -> Run:
+    """A law with the gains of Table 4's column."""
+    return run_under(LAW_NAMES[name], study, study.table_4_column, setting)
 
-    MPC knows mass and general resistance, chi among them, and neither slopes nor disturbances; factors: by which the
-    train's mass and general resistance differ from what controllers know.
-    """
-    run = driven(study, name, setting_of(study, place), factors,
-                 lambda setting: run_under(LAW_NAMES[name], study, study.table_4_column, setting),
-                 study.train.mass_kg / study.train.chi, davis_newton(study.train), plant.model())
-    return compared_row(run, study.line.length_m)
+
+def _known(study: LiuStudy, _: Setting) -> tuple[float, tuple[float, float, float]]:
+    """Mass and general resistance, chi among them, and neither slopes nor disturbances."""
+    return study.train.mass_kg / study.train.chi, davis_newton(study.train)
 
 
 def variants(study: LiuStudy, name: str) -> dict[str, LiuStudy]:
@@ -57,7 +55,10 @@ def value_words(column: int) -> str:
     return f", Value {column}"
 
 
-DRIVERS = Drivers({name: law.title for name, law in LAW_NAMES.items()} | MPC_TITLES, places, keys, drive, variants)
+DRIVE = TripDrive(setting_of, _law, _known, plant.model())
+# The last column of Table 2 with the signs corrected; the networks stay where the study puts them.
+TRACK = DRIVE.tracking("corrected", lambda study: study.runs.table_3_disturbance)
+DRIVERS = Drivers({name: law.title for name, law in LAW_NAMES.items()} | MPC_TITLES, places, keys, DRIVE.row, variants)
 
 
 def drawn_runs(study: LiuStudy, runs: Sequence[ComparedRun]) -> tuple[list[ComparedRun], str]:

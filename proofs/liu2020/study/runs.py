@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from workbench.model.desired_curve import DesiredCurve
 from workbench.paper.reproduced import STATED, Results
-from workbench.paper.tracked import Tracked, of_run
 from workbench.paper.trip_run import ERROR, TripRun, signal_numbers, thinned_log, trip_numbers
 
 from ..laws import LAWS
@@ -91,14 +89,15 @@ def title_of(study: LiuStudy, case: RunCase) -> str:
 def run_case(study: LiuStudy, case: RunCase) -> RunResult:
     """Run a case and measure it; a run that diverges is reported failed."""
     changed = study.changed(case.change)
-    run = run_under(LAWS[case.law], changed, case.column, setting_of(changed, case.disturbance), case.leak_rate_per_s)
+    setting = setting_of(changed, case.disturbance)
+    run = run_under(LAWS[case.law], changed, case.column, setting, case.leak_rate_per_s)
     signals = {"s_tilde": run.column("s_tilde"), "v_tilde": run.column("v_tilde"),
                "input_n": changed.train.mass_kg * run.column("u_mps2")}
     drawn = signals | {ERROR: run.position_error, "speed": run.column("v_mps") - run.column("v_desired_mps"),
                        **{name: run.column(name) for name in ("s_m", "v_mps", "s_desired_m", "v_desired_mps")}}
     whole = math.nan if run.failed else 1.0
     row = trip_numbers(
-        run, changed.line.length_m, reversals=whole * run.totals["command_reversals"],
+        run, setting.curve.length_m, reversals=whole * run.totals["command_reversals"],
         energy_both_J=whole * (run.totals["traction_work_j"] + run.totals["braking_work_j"]),
         **signal_numbers(run, signals))
     return TripRun(case, row, thinned_log(run, drawn) if case.drawn else {})
@@ -154,15 +153,3 @@ class LiuResults(Results[LiuStudy, RunCase, RunResult]):
         return {f"{name}, Value {column}": implied(study, column, *(
             self.printed(table, column, key) for key in ("s_tilde_m", "v_tilde_mps", "position_m")))
             for table, name, column in where}
-
-
-def track(study: LiuStudy, curve: DesiredCurve | None) -> Tracked:
-    """The last column of Table 2 with the signs corrected, on a curve or on the study's own.
-
-    The networks stay where the study puts them.
-    """
-    law, setting = LAWS[CORRECTED], setting_of(study, study.runs.table_3_disturbance)
-    if curve:
-        setting = replace(setting, curve=curve, end_s=curve.trip_time_s)
-    run = run_under(law, study, study.table_4_column, setting)
-    return of_run(study.paper, replace(run, controller=f"{law.id}, Value {study.table_4_column}"), setting.curve)

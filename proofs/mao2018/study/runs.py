@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from workbench.model.desired_curve import DesiredCurve
 from workbench.paper.reproduced import STATED, Results
 from workbench.paper.results import Curve, thinned
-from workbench.paper.tracked import Tracked, of_run
 from workbench.paper.trip_run import ERROR, TripRun, error_curve, thinned_log, trip_numbers
 from workbench.simulate.closed_loop import Run
 from workbench.simulate.metrics import rms
@@ -108,15 +106,6 @@ def simulate(study: MaoStudy, of: RunCase) -> Run:
     changed = study.changed(of.change)
     case, tuning = changed.cases[of.number - 1], _tuning(changed, of)
     return run_under(law_of(case, of.mended), changed, case, tuning, setting_of(changed, case, tuning, of.end_s))
-
-
-def track(study: MaoStudy, curve: DesiredCurve | None) -> Tracked:
-    """The healthy train of case 1 under the first tuning, on a curve or on the study's own."""
-    case, tuning = study.cases[0], next(iter(study.tunings.values()))
-    setting = setting_of(study, case, tuning)
-    setting = replace(setting, curve=curve or setting.curve)
-    run = run_under(law_of(case, ()), study, case, tuning, setting)
-    return of_run(study.paper, replace(run, controller=law_of(case, ()).id), setting.curve)
 
 
 def run_case(study: MaoStudy, of: RunCase) -> RunResult:
