@@ -9,7 +9,9 @@ import pytest
 
 from workbench.model.desired_curve import start_cruise_stop
 from workbench.model.law import ControlLaw, desired_acceleration, desired_position, desired_speed, position, speed
+from workbench.paper.cells import cell_text
 from workbench.paper.reproduction import plain_row
+from workbench.paper.results import Curve
 from workbench.paper.trip_run import ERROR, TripRun, error_curve, signal_numbers, thinned_log, trip_numbers
 from workbench.simulate.closed_loop import Run, Setting, run_law
 from workbench.simulate.metrics import measure_run
@@ -60,3 +62,19 @@ def test_a_study_shows_such_a_run_by_its_case_and_its_row():
     run = TripRun(Case(3, ("44",), 0), {"failed": None, "position_rms": 0.5, "column": 4}, {})
     assert plain_row(study, run.case, run) == {"column": 4, "change": "heavier", "failed": None, "position_rms": 0.5}
     assert run.failed is None and TripRun(run.case, {"failed": "lost"}, {}).failed == "lost"
+
+
+def test_a_run_says_when_it_diverged_and_nothing_where_it_did_not():
+    for end_s, words in ((0.3012, "diverged at 0.301 s"), (101.26, "diverged at 101.3 s")):
+        assert cell_text(TripRun(None, {"failed": "lost", "end_s": end_s}, {}).ended) == words
+    assert TripRun(None, {"failed": None, "end_s": 9.0}, {}).ended is None
+
+
+def test_a_curve_is_drawn_by_parts_in_other_units_and_by_its_size():
+    curve = Curve("e", np.arange(6.0), np.array([5.0, -0.5, 0.0, 1.0, -3.0, 0.5]))
+    part = curve.part(1.0, 2.0)
+    assert part.x.tolist() == [1.0, 2.0, 3.0] and part.called("mm", 1e3).y.tolist() == [-500.0, 0.0, 1000.0]
+    assert curve.part(6.0, 2.0) is None and curve.part(0.0, 1.0).y.tolist() == [5.0], "its first point stays"
+    assert curve.size().y.tolist() == [5.0, 0.5, 1.0, 3.0, 0.5] and curve.size().x.tolist() == [0, 1, 3, 4, 5]
+    flat = Curve("flat", np.arange(3.0), np.zeros(3))
+    assert flat.size() is flat and curve.called("other").y is curve.y

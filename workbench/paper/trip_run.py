@@ -8,6 +8,7 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
+from workbench.paper.cells import Cell, Phrase, Quantity
 from workbench.paper.results import Array, Curve, thinned
 from workbench.simulate.closed_loop import Run
 from workbench.simulate.metrics import finite, measure_run, rms
@@ -34,6 +35,12 @@ class TripRun(Generic[C]):
         """Why the run ended early, if it did."""
         why: str | None = self.row["failed"]
         return why
+
+    @property
+    def ended(self) -> Cell:
+        """When it diverged, in a table's words; None of a run that came to its end."""
+        end = self.row["end_s"]
+        return Phrase("diverged at {} s", (Quantity(end, decimals=3 if end < 10 else 1),)) if self.failed else None
 
     @property
     def compared(self) -> dict[str, Any]:

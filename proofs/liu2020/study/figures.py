@@ -27,8 +27,7 @@ CONTROL_GAINS = (10, 11, 12)  # what they show depends on k_4 and k_5
 
 def _of(run: RunResult, name: str, label: str) -> Curve:
     """A run's curve, of the input in MN."""
-    curve = run.curves[name]
-    return Curve(label, curve.x, curve.y * (1e-6 if name == "input_n" else 1.0))
+    return run.curves[name].called(label, 1e-6 if name == "input_n" else 1.0)
 
 
 def _line(results: LiuResults) -> Plot:
@@ -65,10 +64,10 @@ def _by_column(results: LiuResults) -> Iterator[Plot]:
 def _trajectory(results: LiuResults) -> Plot:
     study = results.study
     curves = results.table_4(study.runs.table_3_disturbance, CORRECTED).curves
-    shown = [(f"{state}{what} ({unit})", curves[key], size) for state, end in (("desired ", "_desired"), ("", ""))
-             for what, unit, key, size in (("speed", "m/s", f"v{end}_mps", 1.0), ("position", "km", f"s{end}_m", 1e3))]
-    return _drawn(f"Position and speed, Value {study.table_4_column}", 13, CORRECTED, "speed (m/s), position (km)",
-                  (Curve(label, curve.x, curve.y / size) for label, curve, size in shown))
+    shown = [curves[key].called(f"{state}{what} ({unit})", factor)
+             for state, end in (("desired ", "_desired"), ("", "")) for what, unit, key, factor in (
+                 ("speed", "m/s", f"v{end}_mps", 1.0), ("position", "km", f"s{end}_m", 1e-3))]
+    return _drawn(f"Position and speed, Value {study.table_4_column}", 13, CORRECTED, "speed (m/s), position (km)", shown)
 
 
 def _by_disturbance(results: LiuResults) -> Iterator[Plot]:

@@ -22,7 +22,6 @@ from .runs import (
     TABLE_4_LAWS,
     TABLE_LAWS,
     LiuResults,
-    RunResult,
     number_of,
 )
 
@@ -111,18 +110,14 @@ def _laws_by_column(results: LiuResults) -> ResultTable:
 
 def _divergence(results: LiuResults) -> ResultTable:
     runs = results.study.runs
-    rows = [(column, LAWS[law].title, *(_position(results.divergence(column, law, rate))
-                                        for rate in runs.divergence_leak_rates_per_s))
+    rows = [(column, LAWS[law].title, *(run.ended or number_of(run, "position_m") for run in (
+        results.divergence(column, law, rate) for rate in runs.divergence_leak_rates_per_s)))
             for column in runs.divergence_columns for law in SIGN_LAWS if results.study.changes]
     return ResultTable(
         "What the printed signs do", "claims 19.leakage, 21.leakage, 32.cancels, 35.leakage",
         ("Value", "law", *(f"{rate:g} 1/s" for rate in runs.divergence_leak_rates_per_s)), tuple(rows),
         f"Columns: leak rate Γσ = αβ of all four estimates; {runs.divergence_change}. Cells: RMS of s−s_d in m, or "
         f"when the run diverged.")
-
-
-def _position(run: RunResult) -> Cell:
-    return Phrase("at {} s", (Quantity(run.row["end_s"], decimals=0),)) if run.failed else number_of(run, "position_m")
 
 
 def _steps(results: LiuResults) -> ResultTable:

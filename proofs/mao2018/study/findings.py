@@ -8,7 +8,7 @@ from workbench.files.numbers import number
 from workbench.paper.cells import cell_text
 from workbench.paper.findings import listed
 
-from .outcomes import ended, force, length, outcome
+from .outcomes import force, length, outcome
 from .runs import MaoResults, RunResult
 
 
@@ -32,7 +32,7 @@ def _signs(tuning: str, results: MaoResults) -> str:
     """The laws as printed beside the corrected ones."""
     corrected = results.all_corrected(tuning)[1:]
     printed = [results.printed(run.case.number, tuning) for run in corrected]
-    lost = [f"case {run.case.number} {cell_text(ended(run))}" for run in printed if run.failed]
+    lost = [f"case {run.case.number} {cell_text(run.ended)}" for run in printed if run.failed]
     alike = [f"case {run.case.number} ({outcome(run)}; corrected {outcome(other)})"
              for run, other in zip(printed, corrected, strict=True) if not run.failed]
     first = min((part.from_s for part in results.study.failure), default=0.0)

@@ -2,25 +2,19 @@
 
 from __future__ import annotations
 
-from workbench.paper.cells import FORCES, Cell, Phrase, Quantity, Scaled, cell_text
+from workbench.paper.cells import FORCES, Cell, Phrase, Scaled, cell_text
 
 from .runs import RunResult
 
 
-def ended(run: RunResult) -> Cell:
-    """When a run diverged; nothing for one that came to its end."""
-    end = run.row["end_s"]
-    return Phrase("diverged at {} s", (Quantity(end, decimals=3 if end < 10 else 1),)) if run.failed else None
-
-
 def summary(run: RunResult) -> Cell:
     """The largest error after the first event and what it settles to, or when it diverged."""
-    return ended(run) if run.failed else Phrase("{}, settles to {}", (Scaled(run.largest_m), Scaled(run.settled_m)))
+    return run.ended if run.failed else Phrase("{}, settles to {}", (Scaled(run.largest_m), Scaled(run.settled_m)))
 
 
 def outcome(run: RunResult) -> str:
     """The same in a sentence's words."""
-    return cell_text(ended(run)) if run.failed else f"up to {length(run.largest_m)}, settling to {length(run.settled_m)}"
+    return cell_text(run.ended) if run.failed else f"up to {length(run.largest_m)}, settling to {length(run.settled_m)}"
 
 
 def length(metres: float) -> str:
