@@ -95,6 +95,11 @@ class ReproducedStudy(Study):
         return None if number == STATED else self.changes[number].title
 
 
+def in_words(*parts: str | None) -> str:
+    """What names a run, of those parts that say something: `law, column 3, twice the rate`."""
+    return ", ".join(filter(None, parts))
+
+
 class HasChange(Protocol):
     """What names a run: at least the number of the change that it is made under, STATED for none."""
 

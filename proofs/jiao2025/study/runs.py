@@ -10,7 +10,7 @@ import numpy as np
 
 from workbench.model.desired_curve import DesiredCurve
 from workbench.paper.learning_comparison import rises
-from workbench.paper.reproduced import Change, Results
+from workbench.paper.reproduced import Change, Results, in_words
 from workbench.paper.tracked import Tracked
 
 from .. import laws
@@ -56,11 +56,10 @@ def run_case(study: JiaoStudy, case: Case) -> TrialRun:
 
 def name_of(study: JiaoStudy, case: Case) -> str:
     """A run in words: law, reading, and what is not as stated."""
-    words = (case.law, case.reading, "resistance against the motion" if case.opposed else None,
-             study.change_title(case.change),
-             None if case.unit_mps2 is None else f"unit of u {case.unit_mps2:.3g} m/s^2",
-             None if case.seed == study.trials.seed else f"seed {case.seed}")
-    return ", ".join(filter(None, words))
+    return in_words(case.law, case.reading, "resistance against the motion" if case.opposed else None,
+                    study.change_title(case.change),
+                    None if case.unit_mps2 is None else f"unit of u {case.unit_mps2:.3g} m/s^2",
+                    None if case.seed == study.trials.seed else f"seed {case.seed}")
 
 
 @dataclass(frozen=True)

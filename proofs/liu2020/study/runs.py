@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from workbench.paper.reproduced import STATED, Results
+from workbench.paper.reproduced import STATED, Results, in_words
 from workbench.paper.trip_run import ERROR, TripRun, signal_numbers, thinned_log, trip_numbers
 
 from ..laws import LAWS
@@ -80,10 +80,10 @@ def left_out(study: LiuStudy, case: RunCase) -> bool:
 def title_of(study: LiuStudy, case: RunCase) -> str:
     """A run in words: law, column, and what is not as in Table 3."""
     as_table_3 = case.disturbance == study.runs.table_3_disturbance
-    words = (f"{case.law}, Value {case.column}", None if as_table_3 else study.disturbances[case.disturbance].title,
-             None if case.leak_rate_per_s is None else f"leak rate {case.leak_rate_per_s:g} 1/s",
-             study.change_title(case.change))
-    return ", ".join(filter(None, words))
+    return in_words(f"{case.law}, Value {case.column}",
+                    None if as_table_3 else study.disturbances[case.disturbance].title,
+                    None if case.leak_rate_per_s is None else f"leak rate {case.leak_rate_per_s:g} 1/s",
+                    study.change_title(case.change))
 
 
 def run_case(study: LiuStudy, case: RunCase) -> RunResult:

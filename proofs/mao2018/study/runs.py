@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from workbench.paper.reproduced import STATED, Results
+from workbench.paper.reproduced import STATED, Results, in_words
 from workbench.paper.results import Curve, thinned
 from workbench.paper.trip_run import ERROR, TripRun, error_curve, thinned_log, trip_numbers
 from workbench.simulate.closed_loop import Run
@@ -130,10 +130,9 @@ def late_errors(run: Run) -> tuple[float, float] | None:
 def name_of(study: MaoStudy, of: RunCase) -> str:
     """A run in words."""
     tuning = _tuning(study, of)
-    words = (f"case {of.number}", law_words(study, of), tuning.title, study.change_title(of.change), None
-             if of.end_s is None else f"period {1e3 * tuning.period_s:g} ms, r_2 = {tuning.r_2_per_s:g}/s, until "
-             f"{of.end_s:g} s")
-    return ", ".join(filter(None, words))
+    return in_words(f"case {of.number}", law_words(study, of), tuning.title, study.change_title(of.change), None
+                    if of.end_s is None else f"period {1e3 * tuning.period_s:g} ms, r_2 = {tuning.r_2_per_s:g}/s, "
+                    f"until {of.end_s:g} s")
 
 
 def law_words(study: MaoStudy, of: RunCase) -> str:
