@@ -9,7 +9,7 @@ import pytest
 
 from workbench.model.desired_curve import start_cruise_stop
 from workbench.model.law import ControlLaw, desired_acceleration, desired_position, desired_speed, position, speed
-from workbench.paper.cells import cell_text
+from workbench.paper.cells import FORCES, LENGTHS, Scaled, cell_text
 from workbench.paper.reproduction import plain_row
 from workbench.paper.results import Curve
 from workbench.paper.trip_run import ERROR, TripRun, error_curve, signal_numbers, thinned_log, trip_numbers
@@ -78,3 +78,8 @@ def test_a_curve_is_drawn_by_parts_in_other_units_and_by_its_size():
     assert curve.size().y.tolist() == [5.0, 0.5, 1.0, 3.0, 0.5] and curve.size().x.tolist() == [0, 1, 3, 4, 5]
     flat = Curve("flat", np.arange(3.0), np.zeros(3))
     assert flat.size() is flat and curve.called("other").y is curve.y
+
+
+def test_a_size_reads_in_sentences_as_in_tables():
+    for value, units, words in ((0.0123, LENGTHS, "12 mm"), (2.5e5, FORCES, "250 kN"), (None, LENGTHS, "—")):
+        assert f"{Scaled(value, units)}" == cell_text(Scaled(value, units)) == words

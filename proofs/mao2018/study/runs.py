@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from workbench.paper.cells import Cell, Phrase, Scaled, cell_text
 from workbench.paper.reproduced import STATED, Results, in_words
 from workbench.paper.results import Curve, thinned
 from workbench.paper.trip_run import ERROR, TripRun, error_curve, thinned_log, trip_numbers
@@ -54,6 +55,17 @@ class RunResult(TripRun[RunCase]):
     def settled_m(self) -> float:
         """The largest of the errors that a run settles to before each event."""
         return max(stretch.settled_m for stretch in self.stretches)
+
+    @property
+    def summary(self) -> Cell:
+        """The largest error after the first event and what it settles to, or when it diverged."""
+        return self.ended or Phrase("{}, settles to {}", (Scaled(self.largest_m), Scaled(self.settled_m)))
+
+    @property
+    def outcome(self) -> str:
+        """The same in a sentence's words."""
+        return (cell_text(self.ended) if self.failed else
+                f"up to {Scaled(self.largest_m)}, settling to {Scaled(self.settled_m)}")
 
 
 def variants(case: CaseData) -> tuple[Signs, ...]:

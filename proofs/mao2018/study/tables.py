@@ -10,7 +10,6 @@ from workbench.paper.reproduced import STATED
 from workbench.paper.results import ResultTable
 from workbench.paper.study_tables import ColumnOf, run_table, sensitivity_table
 
-from .outcomes import summary
 from .runs import MaoResults, RunCase, RunResult, event_times
 
 FIGURES = {1: "Figure 1", 2: "Figure 2 (a)", 3: "Figure 2 (b)", 4: "Figure 2 (c)", 5: "Figure 2 (d)"}
@@ -22,7 +21,7 @@ def _printed(results: MaoResults) -> ResultTable:
     for number, case in enumerate(study.cases, start=1):
         said = "follows the desired curve" if number == 1 else "transients at changes and failures, then settles"
         rows.append((FIGURES.get(number, f"case {number}"), case.title, said, *(
-            summary(run) for tuning in study.tunings
+            run.summary for tuning in study.tunings
             for run in (results.printed(number, tuning), results.corrected(number, tuning)))))
     tunings = " ".join(f"{name}: {tuning.title}, r_1 = {tuning.r_1_per_s:g}/s, r_2 = {tuning.r_2_per_s:g}/s, "
                        f"{1e3 * tuning.period_s:g} ms." for name, tuning in study.tunings.items())
@@ -105,7 +104,7 @@ def _commands(results: MaoResults) -> ResultTable:
 def _sensitivity(results: MaoResults) -> ResultTable:
     def compared(case: RunCase, run: RunResult) -> tuple[Cell, ...]:
         as_stated = results.runs.get(replace(case, change=STATED))
-        return case.number, results.left(run), summary(run), summary(as_stated) if as_stated else None
+        return case.number, results.left(run), run.summary, as_stated.summary if as_stated else None
 
     return sensitivity_table(
         "How much the assumed values matter", ("case", SIGNS_LEFT, "obtained", "without the change"),
