@@ -19,6 +19,7 @@ from workbench.paper.results import Plot, ResultTable, Shown, StudyResult
 from workbench.paper.stages import Stage, Together, run_stages
 from workbench.paper.study import Progress, StudyKind
 from workbench.paper.tracked import Tracked
+from workbench.paper.trip_run import TripRun
 from workbench.paper.winners import winners_table
 
 
@@ -66,10 +67,9 @@ def case_title(study: Any, case: Any) -> str:
 def plain_row(study: Any, case: Any, run: Any) -> dict[str, Any]:
     """The fields of a case, its change by the title, and those of the run's own that are a number, a word or None.
 
-    Of a run with a `row` of its own, that with the fields of the case.
+    Of a `TripRun` all of its row.
     """
-    fields = _plain(_case_words(study, case))
-    return fields | (dict(run.row) if hasattr(run, "row") else _plain(vars(run)))
+    return _plain(_case_words(study, case)) | (dict(run.row) if isinstance(run, TripRun) else _plain(vars(run)))
 
 
 def _plain(values: Mapping[str, Any]) -> dict[str, Any]:
