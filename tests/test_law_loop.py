@@ -11,7 +11,7 @@ from workbench.model.sensing import Sensing
 from workbench.simulate import actuator_loop, kernel_loop, sensing_loop
 from workbench.simulate.closed_loop import _arrays, run_law, setting_of
 from workbench.simulate.controllers import compiled_law
-from workbench.simulate.law_loop import law_loop
+from workbench.simulate.law_loop import law_loop, written_loop
 from workbench.simulate.law_values import law_values
 
 FAILURES = np.array([[0.1, np.inf, 5e3, 0.0, 0.0, 0.0, 0.1], [0.2, 0.6, 5e3, 1e2, 1.0, 0.2, 0.2]])
@@ -84,3 +84,12 @@ def test_values_that_do_not_lie_row_by_row_in_memory_are_refused():
     *values, data = law_values(law, spec, "rbfnn_pocrac")
     with pytest.raises(WorkbenchError, match="rbfnn_pocrac: neuron data must be floats that lie row by row in memory"):
         run_law(law, (*values, data[:, ::2]), setting_of(scenario), spec.period_s)
+
+
+def test_a_written_law_that_states_no_domain_is_defined_everywhere():
+    step = ("def control_step(_t, _p, _v, _x_d, _v_d, _a_d, _period, parameters, scalars, neurons, neuron_data):\n"
+            "    return 0.5\n")
+    bounded = "def domain_margin(_t, _p, _v, _x_d, _v_d, _a_d, _period, parameters):\n    return 1.0 - _v\n"
+    free, within = written_loop("a push", [step]), written_loop("a push up to 1 m/s", [step, bounded])
+    at = (0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.1, np.zeros(0))
+    assert free.law.domain_margin.py_func(*at) == np.inf and within.law.domain_margin.py_func(*at) == -1.0

@@ -27,7 +27,7 @@ DRIVERS = Drivers({"learner": "the learner", "mpc_linear": "linear MPC"}, lambda
                   lambda study, name: {}, lambda *_: {})
 STUDY = SimpleNamespace(
     trials=SimpleNamespace(count=3),
-    tuning=SimpleNamespace(set={}, runs=1, objective=SimpleNamespace(units={"speed_rms": 0.1})))
+    tuning=SimpleNamespace(set={}, runs=1, places=("here",), objective=SimpleNamespace(units={"speed_rms": 0.1})))
 
 
 @settings(max_examples=80, deadline=None)
@@ -89,3 +89,39 @@ def test_a_rival_that_fails_is_no_rival():
     assert [row[-1] for row in next(compared.tables(STUDY, rows)).rows] == [None, None]
     assert "ahead" not in next(compared.findings(STUDY, rows))
     assert len(next(compared.plots(STUDY, rows)).curves) == 1
+
+
+def test_several_places_are_summed_up_in_a_sentence_a_learner():
+    of = replace(DRIVERS, places=lambda study: {"here": "the line", "there": "the hill", "far": "the valley"})
+    learner = {"failed": None, "speed_rms": 0.1, "jerk_rms": 0.3, "step_s": 1e-6,
+               "trials": {"speed_rms": np.array([0.9, 0.5, 0.2, 0.1])}}
+    rival = {"failed": None, "speed_rms": 0.4, "jerk_rms": 0.2, "step_s": 5e-5, "counters": {"qp": 7}}
+    better = rival | {"speed_rms": 0.05}
+    rows = {("here", "learner", False): learner, ("here", "mpc_linear", False): rival,
+            ("there", "learner", False): learner, ("there", "mpc_linear", False): better,
+            ("far", "learner", False): {"failed": "lost", "step_s": 1e-6}, ("far", "mpc_linear", False): rival}
+    compared = LearningComparison(of, COLUMNS, ("speed_rms",), "place", note=lambda study: "Both know the line.")
+    assert list(compared.findings(STUDY, rows))[1:] == [
+        "Beside MPC, which knows the train and drives it once, in speed RMS: the learner finishes in 2 of 3 places and "
+        "overtakes linear MPC in 1 (at trials 3) of them within 3 trials."]
+    table = next(compared.tables(STUDY, rows))
+    assert len(table.rows) == 6 and "Both know the line. MPC counted qp 21." in table.note
+    assert len(list(compared.plots(STUDY, rows))) == 1, "the tuning's place alone is drawn"
+
+
+def test_a_first_trial_stands_above_the_last():
+    learner = {"failed": None, "speed_rms": 0.1, "jerk_rms": 0.3, "step_s": 1e-6,
+               "trials": {"speed_rms": np.array([0.9, 0.1])}, "first": {"failed": None, "speed_rms": 0.9}}
+    compared = LearningComparison(DRIVERS, COLUMNS, ("speed_rms",))
+    table = next(compared.tables(STUDY, {("here", "learner", False): learner}))
+    assert [row[:2] for row in table.rows] == [("the learner, trial 1", 0.9), ("the learner", 0.1)]
+
+
+def test_without_tuning_all_is_as_stated():
+    stated = SimpleNamespace(trials=STUDY.trials, tuning=None, mpc=SimpleNamespace())
+    compared = LearningComparison(DRIVERS, COLUMNS, ("speed_rms",))
+    assert compared.tasks(stated) == [("here", "learner", False), ("here", "mpc_linear", False)]
+    same = {"failed": None, "speed_rms": 0.2, "jerk_rms": 0.3, "step_s": 1e-6}
+    rows = dict.fromkeys(compared.tasks(stated), same)
+    table = next(compared.tables(stated, rows))
+    assert table.title == "Beside MPC, stated" and "tuned" not in table.note

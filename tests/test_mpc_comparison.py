@@ -24,7 +24,10 @@ from workbench.paper.comparison import (
 from workbench.paper.dotted import value_at, with_value_at
 from workbench.paper.drivers import MPC_NAMES, Drivers
 from workbench.paper.mpc_comparison import MPC_KINDS, MpcData, counters_words, known, run_mpc
+from workbench.paper.reproduced import Results
+from workbench.paper.results import Curve
 from workbench.paper.stages import run_stages
+from workbench.paper.trip_run import TripRun
 from workbench.simulate.closed_loop import Setting
 
 DATA = MpcData(period_s=0.1, horizon=20, position_weight=25.0, speed_weight=15.0, command_weight=4.0,
@@ -37,7 +40,8 @@ def row(error, failed=None, jerk=0.5, **more):
     """A run's row as `workbench compare` has it."""
     return {"failed": failed, "position_rms": error, "speed_rms": 2 * error, "position_error_min": -3 * error,
             "position_error_max": error, "stopping_error": 0.1, "energy_J": 7.2e6, "jerk_rms": jerk,
-            "saturated_fraction": 0.0, "step_us_median": 12.0, "curve": (np.arange(5.0), np.full(5, -error)), **more}
+            "saturated_fraction": 0.0, "step_us_median": 12.0,
+            "curve": Curve("error", np.arange(5.0), np.full(5, -error)), **more}
 
 
 def drive(study, name, place, factors):
@@ -66,8 +70,8 @@ DRIVERS = Drivers({"law": "the law", "mpc_linear": "linear MPC"},
 
 @pytest.fixture
 def study():
-    tuning = SimpleNamespace(found={"law": {"error": 0.05}}, runs=10, only_full=False, objective=SimpleNamespace(
-        units={"position_rms": 0.1, "logged_jerk_rms": 0.3}))
+    tuning = SimpleNamespace(found={"law": {"error": 0.05}}, runs=10, set={"end_s": 9.0}, only_full=False,
+                             objective=SimpleNamespace(units={"position_rms": 0.1, "logged_jerk_rms": 0.3}))
     return Errors(tuning=tuning, errors={"law": 0.2, "mpc_linear": 0.1})
 
 
@@ -85,23 +89,23 @@ def test_every_place_has_all_as_stated_and_what_was_tuned(study):
     study.mpc = None
     assert comparison_tasks(DRIVERS, study) == [] == compared(study)
     assert list(comparison_table(DRIVERS, study, [], "run", "")) == [] == list(comparison_findings(DRIVERS, study, []))
-    assert comparison_note(study, [], 0.1) == "" and list(comparison_plot([], "flat")) == []
+    assert list(comparison_plot([], "flat")) == []
 
 
 def test_a_short_report_leaves_tuned_rows_out_where_the_file_says_so_and_no_run_is_made_twice(study):
-    own = {Task("flat", "law", ", low"): {"position_rms": 7.0}}
-    beside = TripComparison(DRIVERS, "run", lambda *_: "Of a test.", lambda study, runs: ([], ""),
-                            own_tasks=lambda study: own, own_rows=lambda results: own)
-    results = SimpleNamespace(study=study)
+    own = {Task("flat", "law", ", low"): "the case"}
+    beside = TripComparison(DRIVERS, "run", lambda study: 0.1, lambda study, runs: ([], ""),
+                            note=lambda study: "Of a test.", own_cases=lambda study: own)
     for only_full, runs in ((False, 8), (True, 6)):
         study.tuning.only_full = only_full
         stage = beside.stage(study)
         assert len(stage.tasks) == runs - 1 and not own.keys() & set(stage.tasks)
         (found,) = run_stages((stage,), 1, lambda *_: None)
-        own[Task("flat", "law", ", low")] = dict(found[Task("flat", "law", ", high")], position_rms=7.0)
-        (table,) = beside.shown(results, found).tables
+        run = TripRun("the case", row(7.0), {"error": Curve("error", np.zeros(1), np.zeros(1))})
+        (table,) = beside.shown(Results(study, {"the case": run}), found).tables
         assert len(table.rows) == runs and table.rows[0][2] == 7.0
-        assert table.note == "Of a test." + (" Shortened: 2 runs left out; all with --full." if only_full else "")
+        assert "Of a test." in table.note
+        assert table.note.endswith(" Shortened: 2 runs left out; all with --full.") == only_full
 
 
 def test_the_table_holds_numbers_and_who_is_told_what(study):
@@ -128,10 +132,10 @@ def test_sentences_say_who_is_nearest_as_stated_and_as_tuned(study):
 
 
 def test_the_note_says_what_mpc_plans_with_and_counted(study):
-    note = comparison_note(study, compared(study), 0.01, "Nobody knows.", "They are shorter.")
+    note = comparison_note(study, compared(study), 0.01, "Nobody knows.")
     assert note.startswith("MPC every 0.1 s, 20 samples ahead, limits of 1 m/s², the laws every 0.01 s, without")
     assert "Nobody knows. MPC counted qp 24. Tuned: by 'workbench tune', 10 runs" in note
-    assert note.endswith("They are shorter.")
+    assert note.endswith("The tuning's runs are shorter than these, see the file.")
     assert counters_words([{"late": 0}]) == "nothing"
 
 

@@ -10,7 +10,8 @@ from refusals import changed
 from workbench.errors import InputError
 from workbench.files.numbers import number
 from workbench.files.toml import Number, Positive, Record, read_toml, validate_record
-from workbench.paper.findings import LackingError, found, listed, needed, some, span
+from workbench.paper.checks import one_of
+from workbench.paper.findings import LackingError, found, listed, needed, required, some, span
 from workbench.paper.gain_search import OwnRuns, Task
 from workbench.paper.loading import Loaded
 from workbench.paper.only_full import ExtraTable
@@ -20,7 +21,6 @@ from workbench.paper.reproduced import (
     ReproducedStudy,
     Results,
     RunCase,
-    one_of,
     stated_and_changed,
 )
 from workbench.paper.reproduction import Reproduction, case_title
@@ -290,3 +290,18 @@ def test_only_full_is_for_rows_and_tables_of_runs_alone_and_comes_from_nowhere(t
         assert validate_record(table | {"source": source}, Sweep, "f.toml", reproduction=True).only_full
     with pytest.raises(InputError, match=r"source\.only_full explains a value"):
         validate_record(table | {"source": {"rates": "assumed: some", "only_full": "x"}}, Sweep, "f.toml")
+
+
+def test_a_run_is_found_by_the_values_of_its_change(tmp_path):
+    study = loaded(tmp_path)
+    results = Results(study, {case: run(study, case) for case in cases(study)})
+    assert results.with_values(decay__rate_per_s=1.0) == run(study, Case(0, 0))
+    assert results.with_values(decay__rate_per_s=2.0) is None is results.with_values(shown=1)
+
+
+def test_a_finding_that_does_not_hold_is_left_out():
+    def holds(results):
+        required(results > 1)
+        yield "More than one."
+
+    assert [list(found((holds,), count)) for count in (1, 2)] == [[], ["More than one."]]

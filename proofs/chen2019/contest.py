@@ -63,10 +63,6 @@ def control_step(_t, _p, _v, _s_r, _v_r, _a_r, _period, parameters, scalars, neu
             _old[_i] = _all[_i]
     scalars[0], scalars[1] = auxiliary(scalars[0], scalars[1], _held[1, 0], parameters)
     return _held[2, 0] / _car[0, 0]
-
-
-def domain_margin(_t, _p, _v, _x_d, _v_d, _a_d, _period, parameters):
-    return math.inf
 """
 # What `scalars` holds from sample to sample, in the order of STEP.
 _CARRIED = sp.symbols("lambda_1 lambda_2 v_dot_followed v_last", real=True)

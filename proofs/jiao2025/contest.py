@@ -27,10 +27,6 @@ def control_step(_t, _p, _v, _x_d, _v_d, _a_d, _period, parameters, scalars, neu
     _k = min(int(round(_t / _period)), neuron_data.shape[1] - 1)
     neuron_data[1, _k] = _v
     return neuron_data[0, _k]
-
-
-def domain_margin(_t, _p, _v, _x_d, _v_d, _a_d, _period, parameters):
-    return math.inf
 """
 OWN = ("unit_mps2", "first_input", "trials")
 

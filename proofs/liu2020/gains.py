@@ -26,7 +26,7 @@ from . import laws as law
 from .laws import k_1, k_2, k_3, s_tilde, v_tilde
 from .plant import s, v
 from .study.record import LiuStudy
-from .study.runs import BY_RATE, RunCase, RunResult, run_case
+from .study.runs import BY_RATE, RMS, RunCase, RunResult, run_case
 
 Values = dict[sp.Expr, sp.Expr]
 
@@ -251,8 +251,8 @@ def case_of(study: LiuStudy, task: Task) -> RunCase:
 
 def row(study: LiuStudy, found: RunResult) -> Ended:
     """The numbers of a run."""
-    names = ("s_tilde_m", "v_tilde_mps", "position_m", "speed_mps", "energy_J", "reversals")
-    return {f"{n}_rms" if n not in ("energy_J", "reversals") else n: found.numbers.get(n) for n in names}, found.failed
+    names = {f"{name}_rms": in_row for name, in_row in RMS.items()} | {"energy_J": "energy_J", "reversals": "reversals"}
+    return {name: found.row[in_row] for name, in_row in names.items()}, found.failed
 
 
 RUNS = OwnRuns(case_of, run_case, row)

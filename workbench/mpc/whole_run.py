@@ -207,7 +207,6 @@ def source(actuator: Actuator) -> tuple[str, ...]:
            f"    _command = command_of(_sample, _p, _v, {', '.join(name for name, _, _ in BLOCKS)})",
            "    _numbers[_at + 2 + min(_sample, _S - 1)] = seconds_now(_which, _clock) - _started",
            "    return _command", "", ""]
-    domain = ["def domain_margin(_t, _p, _v, _x_d, _v_d, _a_d, _period, parameters):", "    return math.inf", ""]
     imports = ["from numba import types", "from numpy import int64",
                f"from {kernels(actuator).__name__} import {names}",
                "clock_gettime = types.ExternalFunction('clock_gettime', types.intc(types.intc, "
@@ -215,4 +214,4 @@ def source(actuator: Actuator) -> tuple[str, ...]:
     resistance = function_source("resistance_at", (x_2,), (a_star, b_star, c_star),
                                  [davis_resistance(x_2, a_star, b_star, c_star)])
     return ("\n".join(imports), resistance, loop_text(adaptive_kernel), loop_text(whole_run_kernel),
-            "\n".join([*law, *domain]))
+            "\n".join(law))

@@ -58,6 +58,10 @@ class Scaled:
     value: float | None
     units: tuple[tuple[str, float, float], ...] = LENGTHS
 
+    def __str__(self) -> str:
+        """As tables show it, for sentences."""
+        return _at_its_scale(self)
+
 
 @dataclass(frozen=True)
 class Phrase:
@@ -94,7 +98,7 @@ def cell_text(cell: Cell, column: Column = WORDS) -> str:
         case Phrase():
             return cell.words.format(*(cell_text(part, column) for part in cell.numbers))
         case Scaled():
-            return _at_its_scale(cell)
+            return str(cell)
         case Quantity():
             return NOTHING if cell.value is None else f"{_shown(cell.value, cell)} {cell.unit}".strip()
         case _:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,20 +13,18 @@ from workbench.files.units import KWH_J
 from workbench.mpc.controller import KINDS
 from workbench.paper.cells import Cell, Column
 from workbench.paper.drivers import MPC_NAMES, Drivers, tuning_words
-from workbench.paper.mpc_comparison import best_words, counters_words, differing, known, run_mpc
+from workbench.paper.mpc_comparison import best_words, counters_words
 from workbench.paper.only_full import shortened
-from workbench.paper.results import Array, Curve, Plot, ResultTable, Shown
+from workbench.paper.results import Curve, Plot, ResultTable, Shown
 from workbench.paper.stages import Stage
-from workbench.simulate.closed_loop import NOMINAL, Factors, Run, Setting
-from workbench.simulate.metrics import measure_run
-from workbench.trains.train import Plant
+from workbench.simulate.closed_loop import NOMINAL
 
 STEP = Column("time a step", "µs", 1e-6)
 COLUMNS = (Column("position RMS", "m"), Column("speed RMS", "m/s"), Column("largest |position error|", "m"),
            Column("stopping error", "m"), Column("energy", "kWh", KWH_J), Column("jerk RMS", "m/s³"),
            Column("saturated"), STEP)
-# Points of an error over time that is sent between processes, and of one that is drawn.
-SENT, DRAWN = 1500, 200
+# Points of an error over time that is drawn.
+DRAWN = 200
 
 
 @dataclass(frozen=True)
@@ -43,7 +41,7 @@ class Task:
 class ComparedRun:
     """A run of the comparison: whose it is, and its row with the keys of `workbench compare`.
 
-    title: the controller as sentences have it; row: also `curve`, see `compared_row`, and `counters`, what MPC counted.
+    title: the controller as sentences have it; row: also `curve`, its position error, and `counters`, what MPC counted.
     """
 
     task: Task
@@ -56,37 +54,12 @@ class ComparedRun:
         return f"{self.title}, tuned" if self.task.tuned else self.title
 
 
-def driven(study: Any, name: str, nominal: Setting, factors: Factors, law: Callable[[Setting], Run], mass_kg: float,
-           davis_n: tuple[float, float, float], plant: Plant) -> Run:
-    """A controller's run of a train that differs by factors from the nominal setting.
-
-    A law runs as it runs in a setting; MPC, by its name, knows mass_kg and davis_n, the nominal curve and its limits.
-    """
-    setting = differing(nominal, factors)
-    if name not in MPC_NAMES:
-        return law(setting)
-    return run_mpc(known(study.mpc, nominal.curve, mass_kg, davis_n, nominal.end_s), MPC_NAMES[name], setting, plant)
-
-
-def compared_row(run: Run, length_m: float) -> dict[str, Any]:
-    """The row of a run over a line of that length: its metrics, its position errors over time, what was counted."""
-    return measure_run(run, length_m).row() | {"curve": error_curve(run), "counters": run.counters}
-
-
-def error_curve(run: Run) -> tuple[Array, Array]:
-    """Times (s) and position errors (m) of a run, thinned and up to where they are finite."""
-    time, error = run.column("t_s"), run.position_error
-    whole = len(error) if np.isfinite(error).all() else int(np.argmin(np.isfinite(error)))
-    keep = slice(None, whole, max(1, len(time) // SENT))
-    return time[keep], error[keep]
-
-
-def _no_tasks(study: Any) -> Collection[Task]:
-    return ()
-
-
-def _no_rows(results: Any) -> Mapping[Task, Mapping[str, Any]]:
+def _no_cases(study: Any) -> Mapping[Task, Hashable]:
     return {}
+
+
+def _no_words(study: Any) -> str:
+    return ""
 
 
 def _as_run(results: Any, runs: Sequence[ComparedRun]) -> list[ComparedRun]:
@@ -97,34 +70,35 @@ def _as_run(results: Any, runs: Sequence[ComparedRun]) -> list[ComparedRun]:
 class TripComparison:
     """How the laws of a paper that drive a trip once are held against MPC, all driven alike by `drivers`.
 
-    heading: what a place is; note(study, runs): of the table; drawn(study, runs): which of them a figure shows, and
-    where they drive, in words; told: see `comparison_table`; with_own(results, runs): the runs, and what the study
-    itself has run beside them; own_tasks(study): those of `comparison_tasks` that the study itself runs, and
-    own_rows(results): their rows.
+    heading: what a place is; period_s(study): how often laws sample; drawn(study, runs): which of them a figure shows,
+    and where they drive, in words; told: see `comparison_table`; note(study): what else its note says;
+    with_own(results, runs): the runs, and what the study itself has run beside them; own_cases(study): those of
+    `comparison_tasks` that the study itself runs, by its cases, whose runs are `TripRun`.
     """
 
     drivers: Drivers
     heading: str
-    note: Callable[[Any, Sequence[ComparedRun]], str]
+    period_s: Callable[[Any], float]
     drawn: Callable[[Any, Sequence[ComparedRun]], tuple[list[ComparedRun], str]]
     told: Mapping[str, str] | None = None
+    note: Callable[[Any], str] = _no_words
     with_own: Callable[[Any, Sequence[ComparedRun]], list[ComparedRun]] = _as_run
-    own_tasks: Callable[[Any], Collection[Task]] = _no_tasks
-    own_rows: Callable[[Any], Mapping[Task, Mapping[str, Any]]] = _no_rows
+    own_cases: Callable[[Any], Mapping[Task, Hashable]] = _no_cases
 
     def stage(self, study: Any) -> Stage:
-        """The runs of `comparison_tasks` but those of `own_tasks`."""
-        return comparison_stage(self.drivers, study, self.own_tasks(study))
+        """The runs of `comparison_tasks` but those of `own_cases`."""
+        return comparison_stage(self.drivers, study, self.own_cases(study))
 
     def shown(self, results: Any, found: Mapping[Task, Mapping[str, Any]]) -> Shown:
         """Table, figure and findings; nothing without MPC."""
         study, drivers = results.study, self.drivers
-        rows = {**found, **self.own_rows(results)}
+        rows = {**found, **{task: results.runs[case].compared for task, case in self.own_cases(study).items()}}
         tasks = comparison_tasks(drivers, study)
         fewer = compared_runs(drivers, {task: {} for task in comparison_tasks(drivers, study, full=True)
                                         if task not in tasks})
         runs = self.with_own(results, compared_runs(drivers, {task: rows[task] for task in tasks}))
-        tables = comparison_table(drivers, study, runs, self.heading, self.note(study, runs), self.told)
+        note = comparison_note(study, runs, self.period_s(study), self.note(study)) if runs else ""
+        tables = comparison_table(drivers, study, runs, self.heading, note, self.told)
         undrawn = len(self.drawn(study, fewer)[0])
         return Shown((shortened(table, len(fewer)) for table in tables),
                      (shortened(plot, undrawn) for plot in comparison_plot(*self.drawn(study, runs))),
@@ -136,7 +110,7 @@ def _none(*_: Any) -> dict[str, Any]:
 
 
 # Of a study that holds no law against MPC.
-ALONE = TripComparison(Drivers({}, _none, _none, _none), "", lambda study, runs: "", lambda study, runs: ([], ""))
+ALONE = TripComparison(Drivers({}, _none, _none, _none), "", lambda study: 0.0, lambda study, runs: ([], ""))
 
 
 def comparison_tasks(drivers: Drivers, study: Any, full: bool = False) -> list[Task]:
@@ -196,19 +170,16 @@ def _cells(row: Mapping[str, Any]) -> tuple[Cell, ...]:
             row["saturated_fraction"], step_s)
 
 
-def comparison_note(study: Any, runs: Sequence[ComparedRun], law_period_s: float, told: str = "",
-                    shorter: str = "") -> str:
+def comparison_note(study: Any, runs: Sequence[ComparedRun], law_period_s: float, told: str = "") -> str:
     """For the table: what MPC plans with and counted, how often laws without limits sample, what was tuned.
 
-    told: who knows what, a sentence; shorter: how the tuning's runs differ from these, a sentence. Empty without runs.
+    told: who knows what, a sentence.
     """
-    if not runs:
-        return ""
     data = study.mpc
     parts = (f"MPC every {data.period_s:g} s, {data.horizon} samples ahead, limits of {data.max_traction_mps2:g} m/s², "
              f"the laws every {law_period_s:g} s, without limits as in the paper.", told,
              f"MPC counted {counters_words([run.row.get('counters', {}) for run in runs])}.",
-             f"{tuning_words(study.tuning)} {shorter}" if study.tuning else "")
+             tuning_words(study.tuning) if study.tuning else "")
     return " ".join(part for part in parts if part)
 
 
@@ -234,7 +205,7 @@ def comparison_plot(runs: Sequence[ComparedRun], where: str) -> Iterator[Plot]:
     curves = []
     for run in runs:
         if run.row["failed"] is None:
-            time, error = run.row["curve"]
+            time, error = run.row["curve"].x, run.row["curve"].y
             parts = np.array_split(np.arange(len(error)), min(len(error), DRAWN))
             largest = np.array([np.abs(error[part]).max() for part in parts])
             curves.append(Curve(run.label, np.array([time[part[0]] for part in parts]), largest))

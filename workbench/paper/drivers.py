@@ -93,8 +93,9 @@ def tuning_words(tuning: StudyTuning) -> str:
     """For a table's note: what tuned rows were tuned for, and within which budget."""
     units = {"position_rms": "position", "speed_rms": "speed", "logged_jerk_rms": "logged jerk"}
     parts = " + ".join(f"{units[name]} RMS/{unit:g}" for name, unit in tuning.objective.units.items())
+    shorter = " The tuning's runs are shorter than these, see the file." if tuning.set else ""
     return (f"Tuned: by 'workbench tune', {tuning.runs} runs with one optimiser and seed for each controller, to the "
-            f"least {parts}; the paper's parameters stay as their own rows.")
+            f"least {parts}; the paper's parameters stay as their own rows.{shorter}")
 
 
 def checked(drivers: Drivers) -> Callable[[Any, Path], Any]:

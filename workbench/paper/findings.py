@@ -23,6 +23,12 @@ def needed(value: T | None) -> T:
     return value
 
 
+def required(holds: bool) -> None:
+    """Leaves out the finding that asks for it, where something that it says does not hold."""
+    if not holds:
+        raise LackingError
+
+
 def some(values: Iterable[T]) -> list[T]:
     """All values, of which there must be one; else the finding that asks for them is left out."""
     if not (every := list(values)):

@@ -11,8 +11,8 @@ import numpy as np
 
 from workbench.paper.cells import Cell, Column, Phrase
 from workbench.paper.comparison import STEP
-from workbench.paper.drivers import Drivers, entries, tuning_words
-from workbench.paper.mpc_comparison import JERK, best_words
+from workbench.paper.drivers import Drivers, tuning_words
+from workbench.paper.mpc_comparison import JERK, best_words, counters_words
 from workbench.paper.only_full import shortened
 from workbench.paper.pairs import METRIC_NAMES, STATES
 from workbench.paper.results import Array, Curve, Plot, ResultTable, Shown
@@ -75,14 +75,19 @@ def _no_rows(results: Any) -> Rows:
     return {}
 
 
+def _no_words(study: Any) -> str:
+    return ""
+
+
 @dataclass(frozen=True)
 class LearningComparison:
     """How the learning laws of a paper are held against MPC, all driven alike by `drivers`.
 
-    A row of `drivers.drive` has SI numbers by the keys of `columns`, and, of a law that learns, `trials`: metric ->
-    its value in every trial. metrics: those of the errors by which a learner is ahead or not; place_word: what a place
-    is, `reading`, empty where there is only one. own_rows(results): rows that the study's own runs give, of
-    own_tasks(study), which are not run again.
+    A row of `drivers.drive` has SI numbers by the keys of `columns`; of a law that learns, `trials`, metric -> its
+    value in every trial, and, where that is shown, `first`, the row of its first trial; of MPC, what it counted as
+    `counters`. metrics: those of the errors by which a learner is ahead or not; place_word: what a place is, `reading`,
+    empty where there is only one. own_rows(results): rows that the study's own runs give, of own_tasks(study), which
+    are not run again. note(study): for the table, who samples how often and knows what.
     """
 
     drivers: Drivers
@@ -91,15 +96,22 @@ class LearningComparison:
     place_word: str = ""
     own_tasks: Callable[[Any], Sequence[Task]] = _none
     own_rows: Callable[[Any], Rows] = _no_rows
+    note: Callable[[Any], str] = _no_words
 
     def tasks(self, study: Any, full: bool = False) -> list[Task]:
-        """Every controller, as stated and as tuned, in the places of the tuning; none without MPC or tuning.
+        """Every controller as stated in every place, and as tuned in those of the tuning; none without MPC.
 
         full: also what a short report leaves out.
         """
-        places, stated = study.tuning.places if study.tuning else (), not full and study.leaves_out(study.tuning)
-        return [(place, *entry) for place in places for entry in entries(study, self.drivers)
-                if not (stated and entry[1])]
+        tuned = study.tuning is not None and (full or not study.leaves_out(study.tuning))
+        return [] if study.mpc is None else [
+            (place, name, state) for place in self.drivers.places(study) for name in self.drivers.titles
+            for state in (False, True)
+            if not state or (tuned and place in study.tuning.places and name in study.tuning.found)]
+
+    def studied(self, study: Any) -> tuple[str, ...]:
+        """The places that sentences and figures are about one by one: those of the tuning, else the first."""
+        return study.tuning.places if study.tuning else tuple(self.drivers.places(study))[:1]
 
     def stage(self, study: Any) -> Stage:
         """The runs of `tasks` but those of `own_tasks`."""
@@ -113,33 +125,48 @@ class LearningComparison:
         rows = {task: found[task] if task in found else own[task] for task in self.tasks(study)}
         fewer = len(self.tasks(study, full=True)) - len(rows)
         tables = (shortened(table, fewer) for table in self.tables(study, rows))
-        places = max(1, len({place for place, _, _ in rows}))
-        plots = (shortened(plot, fewer // places) for plot in self.plots(study, rows))
+        plots = (shortened(plot, fewer // len(self.studied(study))) for plot in self.plots(study, rows))
         return Shown(tables, plots, self.findings(study, rows))
 
     def title(self, name: str, tuned: bool) -> str:
         """A controller as tables have it."""
         return self.drivers.titles[name] + (", tuned" if tuned else "")
 
+    @property
+    def _rivals(self) -> list[str]:
+        return [name for name in self.drivers.titles if name.startswith("mpc")]
+
     def tables(self, study: Any, rows: Rows) -> Iterator[ResultTable]:
-        """A row per place and controller, stated and tuned; nothing without rows."""
+        """A row per place and controller, stated and tuned, and one of its first trial; nothing without rows."""
         if not rows:
             return
-        rivals = [name for name in self.drivers.titles if name.startswith("mpc")]
-        titles, lines = self.drivers.places(study), []
+        titles, lines = self.drivers.places(study), list[tuple[Cell, ...]]()
         for (place, name, tuned), row in rows.items():
             ahead = [self._ahead(row, rows.get((place, rival, tuned)), metric)
-                     for rival in rivals for metric in self.metrics]
-            place_cells = (titles[place],) if self.place_word else ()
-            lines.append((*place_cells, self.title(name, tuned), *row_cells(row, self.columns), *ahead))
+                     for rival in self._rivals for metric in self.metrics]
+            place_cells, title = (titles[place],) if self.place_word else (), self.title(name, tuned)
+            if "first" in row:
+                lines.append((*place_cells, f"{title}, trial {self.drivers.first_trial}",
+                              *row_cells(row["first"], self.columns), *(None for _ in ahead)))
+            lines.append((*place_cells, title, *row_cells(row, self.columns), *ahead))
         heading = [f"ahead of {self.drivers.titles[rival]} in {METRIC_NAMES[metric][0]} from"
-                   for rival in rivals for metric in self.metrics]
-        shorter = " The tuning's runs are shorter than these, see the file." if study.tuning.set else ""
+                   for rival in self._rivals for metric in self.metrics]
         yield ResultTable(
-            "Beside MPC, stated and tuned", "comparison",
+            f"Beside MPC, {self._states(study)}", "comparison",
             (*((self.place_word,) if self.place_word else ()), "controller", *self.columns.values(), *heading),
-            tuple(lines), f"Of laws that learn the last of {study.trials.count} trials. {tuning_words(study.tuning)}"
-            f"{shorter} A law is held against MPC in the same state, stated or tuned.")
+            tuple(lines), self._note(study, rows))
+
+    @staticmethod
+    def _states(study: Any) -> str:
+        return "stated and tuned" if study.tuning else "stated"
+
+    def _note(self, study: Any, rows: Rows) -> str:
+        counted = [row["counters"] for row in rows.values() if row.get("counters")]
+        tuned = (f"{tuning_words(study.tuning)} A law is held against MPC in the same state, stated or tuned."
+                 if study.tuning else "")
+        return " ".join(part for part in (
+            f"Of laws that learn the last of {study.trials.count} trials.", self.note(study),
+            f"MPC counted {counters_words(counted)}." if counted else "", tuned) if part)
 
     def _ahead(self, row: Mapping[str, Any], rival: Mapping[str, Any] | None, metric: str) -> Cell:
         if rival is None or rival["failed"] is not None or "trials" not in row:
@@ -148,8 +175,11 @@ class LearningComparison:
         return "no trial" if trial is None else Phrase("trial {}", (trial,))
 
     def findings(self, study: Any, rows: Rows) -> Iterator[str]:
-        """Who is best, stated and tuned, and when the learners get ahead; a sentence per place and state."""
-        for place in dict.fromkeys(place for place, _, _ in rows):
+        """Who is best, stated and tuned, and when the learners get ahead, a sentence per place of `studied` and state.
+
+        Then one per learner and metric over all places, where there are several.
+        """
+        for place in self.studied(study):
             for tuned, state in STATES.items():
                 here = [(self.drivers.titles[name], row) for (at, name, of), row in rows.items()
                         if (at, of) == (place, tuned)]
@@ -159,6 +189,25 @@ class LearningComparison:
                     where = f"{self.place_word} {place}, {state}" if self.place_word else state
                     words = "; ".join((*best, *self._learned(here, study.trials.count)))
                     yield f"{where[0].upper()}{where[1:]}: {words}."
+        places = self.drivers.places(study)
+        for name in self.drivers.titles if rows and len(places) > 1 else ():
+            for metric in self.metrics if name not in self._rivals else ():
+                yield self._everywhere(study, rows, name, metric)
+
+    def _everywhere(self, study: Any, rows: Rows, name: str, metric: str) -> str:
+        """In how many places a learner as stated gets ahead of each MPC, and when."""
+        places, words = self.drivers.places(study), []
+        ended = [place for place in places if rows[place, name, False]["failed"] is None]
+        for rival in self._rivals:
+            when = (ahead_from(rows[place, name, False]["trials"][metric], rows[place, rival, False][metric],
+                               self.drivers.first_trial)
+                    for place in ended if rows[place, rival, False]["failed"] is None)
+            ahead = sorted(trial for trial in when if trial is not None)
+            words.append(f"{self.drivers.titles[rival]} in {len(ahead)}" + (
+                f" (at trials {', '.join(map(str, ahead))})" if ahead else ""))
+        return (f"Beside MPC, which knows the train and drives it once, in {METRIC_NAMES[metric][0]}: "
+                f"{self.drivers.titles[name]} finishes in {len(ended)} of {len(places)} {self.place_word}s and "
+                f"overtakes {' and '.join(words)} of them within {study.trials.count} trials.")
 
     def _learned(self, here: Sequence[tuple[str, Mapping[str, Any]]], count: int) -> Iterator[str]:
         for name, row in here:
@@ -174,7 +223,7 @@ class LearningComparison:
     def plots(self, study: Any, rows: Rows) -> Iterator[Plot]:
         """Errors along the trials, stated and tuned, and MPC's as level lines; a figure per place and metric."""
         titles = self.drivers.places(study)
-        for place in dict.fromkeys(place for place, _, _ in rows):
+        for place in self.studied(study):
             for metric in self.metrics:
                 curves = []
                 for (at, name, tuned), row in rows.items():
@@ -185,7 +234,7 @@ class LearningComparison:
                 if curves:
                     name, unit = METRIC_NAMES[metric]
                     error = f", {name.removesuffix(' RMS')}" if len(self.metrics) > 1 else ""
-                    yield Plot(f"Learning beside MPC{error}, stated and tuned",
+                    yield Plot(f"Learning beside MPC{error}, {self._states(study)}",
                                f"not in the paper; {titles[place]}" if self.place_word else "not in the paper", "trial",
                                f"{name} ({unit})", tuple(curves), "MPC drives once: level lines.", log_y=True)
 

@@ -95,10 +95,9 @@ class ReproducedStudy(Study):
         return None if number == STATED else self.changes[number].title
 
 
-def one_of(key: str, what: str, name: object, known: Iterable[object]) -> None:
-    """ValueError where what a key names is not there: a law, a reading, a case."""
-    if name not in (among := list(known)):
-        raise ValueError(f"{key}: there is no {what} {name!r}: choose one of {', '.join(map(str, among))}")
+def in_words(*parts: str | None) -> str:
+    """What names a run, of those parts that say something: `law, column 3, twice the rate`."""
+    return ", ".join(filter(None, parts))
 
 
 class HasChange(Protocol):
@@ -154,6 +153,11 @@ class Results(Generic[S, C, R]):
         changes = self.study.changes
         found = self.fitting(lambda of: of.change != STATED and which(changes[of.change]) and _has(of, case))
         return [(changes[of.change], run) for of, run in found.items()]
+
+    def with_values(self, **values: object) -> R | None:
+        """The run under the change of exactly these values, dots as double underscores; None where there is none."""
+        wanted = {key.replace("__", "."): value for key, value in values.items()}
+        return next((run for _, run in self.under(lambda change: change.set == wanted)), None)
 
     def changing(self, *keys: str, **case: object) -> dict[C, R]:
         """Those of `select` under changes of exactly these keys; under any change where no key is named."""

@@ -14,11 +14,12 @@ from workbench.paper.drivers import Drivers, checked, tune_with
 from workbench.paper.findings import found
 from workbench.paper.only_full import MadeRuns, each
 from workbench.paper.pairs import compared_pairs, pair_findings, pair_stage, pair_table
-from workbench.paper.reproduced import STATED, ReproducedStudy, Results
+from workbench.paper.reproduced import STATED, ReproducedStudy, Results, in_words
 from workbench.paper.results import Plot, ResultTable, Shown, StudyResult
 from workbench.paper.stages import Stage, Together, run_stages
 from workbench.paper.study import Progress, StudyKind
 from workbench.paper.tracked import Tracked
+from workbench.paper.trip_run import TripRun
 from workbench.paper.winners import winners_table
 
 
@@ -59,14 +60,20 @@ def _case_words(study: Any, case: Any) -> dict[str, Any]:
 def case_title(study: Any, case: Any) -> str:
     """A run in words from its case: `column 3, twice the rate`, or `as stated` where no field says more."""
     fields = _case_words(study, case)
-    words = [*(f"{key} {value}" for key, value in fields.items() if key != "change"), fields.get("change")]
-    return ", ".join(filter(None, words)) or "as stated"
+    words = (f"{key} {value}" for key, value in fields.items() if key != "change")
+    return in_words(*words, fields.get("change")) or "as stated"
 
 
 def plain_row(study: Any, case: Any, run: Any) -> dict[str, Any]:
-    """The fields of a case, its change by the title, and those of the run's own that are a number, a word or None."""
-    plain = {key: value for key, value in vars(run).items() if value is None or isinstance(value, int | float | str)}
-    return _case_words(study, case) | plain
+    """The fields of a case, its change by the title, and those of the run's own that are a number, a word or None.
+
+    Of a `TripRun` all of its row.
+    """
+    return _plain(_case_words(study, case)) | (dict(run.row) if isinstance(run, TripRun) else _plain(vars(run)))
+
+
+def _plain(values: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in values.items() if value is None or isinstance(value, int | float | str)}
 
 
 @dataclass(frozen=True)

@@ -33,6 +33,22 @@ class Curve:
         if not (np.isfinite(self.x).all() and np.isfinite(self.y).all()):
             raise ValueError(f"curve '{self.label}' has values that are not finite: end it where its run failed")
 
+    def called(self, label: str, factor: float = 1.0) -> Curve:
+        """The same under another label, y times a factor."""
+        return Curve(label, self.x, self.y if factor == 1 else self.y * factor)
+
+    def size(self) -> Curve:
+        """|y| as a logarithmic axis takes it, without points where it is zero; the same where it is zero throughout."""
+        some = self.y != 0
+        return Curve(self.label, self.x[some], np.abs(self.y[some])) if some.any() else self
+
+    def part(self, start: float, most: float) -> Curve | None:
+        """From x = start on and up to where |y| first exceeds `most`; None where nothing is left."""
+        x, y = self.x[self.x >= start], self.y[self.x >= start]
+        beyond = np.abs(y) > most
+        last = max(1, int(np.argmax(beyond))) if beyond.any() else len(y)
+        return Curve(self.label, x[:last], y[:last]) if len(x) else None
+
 
 def thinned(label: str, x: Array, y: Array, stretches: int = 1000) -> Curve:
     """A curve up to where y is finite, of which each of so many stretches keeps its largest and its smallest value."""

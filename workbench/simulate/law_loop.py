@@ -20,6 +20,11 @@ from workbench.mpc.whole_run import source
 from workbench.simulate import kernel_loop, law_call
 from workbench.trains.train import Plant, single_particle
 
+EVERYWHERE = """
+def domain_margin(_t, _p, _v, _x_d, _v_d, _a_d, _period, parameters):
+    return math.inf
+"""
+
 
 @dataclass(frozen=True)
 class LawLoop:
@@ -57,9 +62,12 @@ def law_loop(law: ControlLaw, estimates: Estimates = "corrected", plant: Plant |
 def written_loop(source: str, functions: Sequence[str], plant: Plant | None = None) -> LawLoop:
     """The same under a law that is more than its expressions: Python source of `control_step` and `domain_margin`.
 
-    source: what the functions were made from, in words; functions: these two and what they call.
+    source: what the functions were made from, in words; functions: these two and what they call, or without the second
+    of a law that is defined everywhere.
     """
     plant = plant or single_particle()
+    if not any("def domain_margin(" in text for text in functions):
+        functions = [*functions, EVERYWHERE]
     driven = loop_module(plant.source, [plant_source(plant)], kernel_loop)
     law = loop_module(source, functions, law_call)
     answer = c_function(law, "answer", law_call.ANSWER)

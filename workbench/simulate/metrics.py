@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -66,8 +67,12 @@ class Metrics:
 
     def row(self) -> dict[str, object]:
         """The row as plain data; numbers of a run that failed before its first sample are None."""
-        return {key: None if isinstance(value, float) and not np.isfinite(value) else value
-                for key, value in vars(self).items()}
+        return finite(vars(self))
+
+
+def finite(row: Mapping[str, object]) -> dict[str, object]:
+    """A row with None for each number that is none."""
+    return {key: None if isinstance(value, float) and not np.isfinite(value) else value for key, value in row.items()}
 
 
 def rms(values: Array) -> float:

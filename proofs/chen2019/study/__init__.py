@@ -6,7 +6,7 @@ from workbench.paper.reproduced import stated_and_changed
 from workbench.paper.reproduction import Reproduction
 from workbench.paper.stages import Together
 
-from .comparison import COMPARISON, mpc_findings, mpc_tables
+from .comparison import COMPARISON
 from .findings import FINDINGS
 from .plots import PLOTS
 from .record import ChenStudy
@@ -14,6 +14,6 @@ from .runs import ChenResults, groups, measuring, run_case, run_cases_together, 
 from .tables import TABLES
 
 KIND = Reproduction(
-    ChenStudy, stated_and_changed, run_case, row=run_row, results=ChenResults, tables=(*TABLES, mpc_tables),
-    plots=PLOTS, findings=(*FINDINGS, mpc_findings), beside=COMPARISON, track=track, stages=measuring,
+    ChenStudy, stated_and_changed, run_case, row=run_row, results=ChenResults, tables=TABLES,
+    plots=PLOTS, findings=FINDINGS, beside=COMPARISON, track=track, stages=measuring,
     together=Together(run_cases_together, groups)).kind

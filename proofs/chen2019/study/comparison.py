@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from workbench.files.numbers import number
 from workbench.files.units import KWH_J
 from workbench.mpc.multi_car import MultiCarMpc
 from workbench.paper.cells import Column
 from workbench.paper.comparison import STEP
 from workbench.paper.drivers import Drivers, keys_in
-from workbench.paper.learning_comparison import LearningComparison, Task, row_cells
-from workbench.paper.mpc_comparison import counters_words
-from workbench.paper.results import ResultTable
-from workbench.paper.statistics import ahead_from
+from workbench.paper.learning_comparison import LearningComparison, Task
 from workbench.simulate.closed_loop import NOMINAL, Factors
 
 from .. import laws
@@ -74,15 +70,17 @@ def drive_together(study: ChenStudy, name: str, place: str, factors: Sequence[Fa
 
 def mpc_row(study: ChenStudy, trip: MpcTrip) -> dict[str, Any]:
     """A trip under MPC."""
-    return trip_row(study, trip.totals, trip.totals["car_steps_at_limit"], trip.jerk, trip.step_s)
+    return trip_row(study, trip.totals, trip.totals["car_steps_at_limit"], trip.jerk, trip.step_s) | {
+        "counters": trip.counters}
 
 
 def law_row(study: ChenStudy, run: CarsRun) -> dict[str, Any]:
-    """The last trial of a run, and its errors trial by trial; of one that failed only why."""
+    """The last trial of a run and its first, and its errors trial by trial; of one that failed only why."""
     if run.failed is not None:
         return {"failed": run.failed, "step_s": 1e-6 * float(np.median(run.step_us))}
     whole = study.reference.trip_time_s * study.train.cars
     return trial_row(study, run, len(run.totals)) | {
+        "first": trial_row(study, run, 1) | {"step_s": None},  # it is that of all trials
         "trials": {f"{name}_rms": run.rms(name, whole) for name in ("position", "speed")}}
 
 
@@ -104,47 +102,13 @@ def stated_rows(results: ChenResults) -> dict[Task, Mapping[str, Any]]:
     return law | ({(PLACE, MPC, False): mpc_row(study, trip)} if trip else {})
 
 
+def note(study: ChenStudy) -> str:
+    """Who samples how often and knows what."""
+    return (f"All {study.train.cars} cars, with the same limits of every car. MPC every {study.mpc.period_s:g} s, "
+            f"{study.mpc.horizon} samples ahead: {MultiCarMpc.information}; the law every {study.sampling.period_s:g} s: "
+            "full state of all cars, model unknown, earlier trials.") if study.mpc else ""
+
+
 DRIVERS = Drivers({LAW: "the law", MPC: MultiCarMpc.title}, places, keys, drive, drive_together=drive_together)
 COMPARISON = LearningComparison(DRIVERS, COLUMNS, ("position_rms", "speed_rms"), own_tasks=stated_tasks,
-                                own_rows=stated_rows)
-
-
-def mpc_tables(results: ChenResults) -> Iterator[ResultTable]:
-    """The law's first and last trial beside MPC's trip, and what a step of both costs; nothing without MPC."""
-    study, run, measured = results.study, results.stated, results.measured
-    if measured.trip is None or study.mpc is None:
-        return
-    trials = sorted({1, *study.trials.shown} & set(range(1, len(run.totals) + 1)))
-    yield ResultTable(
-        "Beside MPC", "comparison", ("controller", *COLUMNS.values()),
-        (*((f"the law, trial {trial}", *row_cells(trial_row(study, run, trial) | _step(results), COLUMNS))
-           for trial in trials),
-         (MultiCarMpc.title, *row_cells(mpc_row(study, measured.trip), COLUMNS))),
-        f"All {study.train.cars} cars, with the same limits of every car. MPC every {study.mpc.period_s:g} s, "
-        f"{study.mpc.horizon} samples ahead: {MultiCarMpc.information}; the law every {study.sampling.period_s:g} s: "
-        f"full state of all cars, model unknown, earlier trials. MPC counted "
-        f"{counters_words([measured.trip.counters])}.")
-    if not measured.longer:
-        return
-    yield ResultTable(
-        "A step of MPC for trains of several lengths", "comparison",
-        ("cars", Column("a step of MPC", "µs", 1e-6), Column("p99", "µs", 1e-6),
-         Column("a sample of the law", "µs", 1e-6)),
-        tuple((one.cars, one.step_s, one.step_s_p99, measured.sample_s[one.cars]) for one in measured.longer),
-        f"The first {study.cost.end_s:g} s of the trip, {study.mpc.horizon} samples ahead.")
-
-
-def mpc_findings(results: ChenResults) -> Iterator[str]:
-    """At which trial learning overtakes MPC, or that it does not."""
-    trip, run = results.measured.trip, results.stated
-    if trip is None or run.failed is not None:
-        return
-    for name, unit in (("position", "m"), ("speed", "m/s")):
-        ours = law_row(results.study, run)["trials"][f"{name}_rms"]
-        rival = mpc_row(results.study, trip)[f"{name}_rms"]
-        trial = ahead_from(ours, rival)
-        words = f"overtakes MPC at trial {trial}" if trial is not None else (
-            f"does not overtake MPC in {len(ours)} trials")
-        yield (f"Beside multi-car MPC, which knows the train and drives it once: in {name} RMS the law {words}; its "
-               f"first trial has {number(float(ours[0]))} {unit}, its last {number(float(ours[-1]))} {unit}, MPC "
-               f"{number(rival)} {unit}.")
+                                own_rows=stated_rows, note=note)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from workbench.files.numbers import fixed, number
-from workbench.paper.findings import LackingError, needed, some
+from workbench.paper.findings import needed, required, some
 from workbench.paper.learning_comparison import rises
 
 from ..simulation.cars_trials import CarsRun
@@ -54,10 +54,9 @@ def _further(results: ChenResults) -> Iterator[str]:
 def _sampling(results: ChenResults) -> str:
     study, stated = results.study, results.stated
     half, cruise = study.sampling.period_s / 2, study.reference.cruise_mps
-    same = needed(results.find(sampling__memory="same_sample"))
-    finer = needed(results.find(sampling__memory="same_sample", sampling__period_s=half))
-    if stated.failed or finer.failed or not len(same.totals):
-        raise LackingError
+    same = needed(results.with_values(sampling__memory="same_sample"))
+    finer = needed(results.with_values(sampling__memory="same_sample", sampling__period_s=half))
+    required(not stated.failed and not finer.failed and len(same.totals) > 0)
     fast, answered = alternating_growth(study, cruise)
     # Up to which speed the stated memory rule lets no alternating error grow.
     place = 0 if study.sampling.memory == "same_sample" else 1
@@ -78,15 +77,15 @@ def _sampling(results: ChenResults) -> str:
 
 
 def _acceleration(results: ChenResults) -> str:
-    rules = {"that of the sample before": results.find(sampling__acceleration="sampled"),
-             "filtered with 0.01 s": results.find(sampling__acceleration="filtered", sampling__filter_s=0.01),
-             f"filtered with {results.study.sampling.filter_s:g} s": results.find(sampling__acceleration="filtered")}
+    rules = {"that of the sample before": results.with_values(sampling__acceleration="sampled"),
+             "filtered with 0.01 s": results.with_values(sampling__acceleration="filtered", sampling__filter_s=0.01),
+             f"filtered with {results.study.sampling.filter_s:g} s": results.with_values(sampling__acceleration="filtered")}
     words = some(f"{name}: {_became(run)}" for name, run in rules.items() if run is not None)
     return f"Other rules for the acceleration that (16) uses: {'; '.join(words)}."
 
 
 def _gains(results: ChenResults) -> Iterator[str]:
-    exact, smaller = results.find(gains__c_1=1.0), results.find(gains__c_3=0.01)
+    exact, smaller = results.with_values(gains__c_1=1.0), results.with_values(gains__c_3=0.01)
     if exact is not None and len(results.stated.totals):
         yield (f"The stated c_1 = {results.study.gains.c_1:g} breaks the paper's own condition c_λ > 0 (claim "
                f"49.stated). With c_1 = 1, which meets it: {_became(exact)}.")
@@ -127,8 +126,7 @@ def _trailers(results: ChenResults) -> str:
 
 def _energy(results: ChenResults) -> Iterator[str]:
     run = results.stated
-    if not len(run.totals):
-        raise LackingError
+    required(len(run.totals) > 0)
     change, allowed = cef_change(run), allowed_change(results.study, run)
     yield (f"The energy function (25) of the stated run falls by at least what (35) promises in "
            f"{int(np.sum(change <= allowed))} of {len(change)} trials.")
@@ -142,7 +140,7 @@ def _energy(results: ChenResults) -> Iterator[str]:
 
 
 def _place(results: ChenResults) -> str:
-    time, place = (needed(results.find(line__seen_by=by)) for by in ("reference", "train"))
+    time, place = (needed(results.with_values(line__seen_by=by)) for by in ("reference", "train"))
     return ("Slopes act where the train is, while (31) takes them for a function of time alone (claim 31.place). With "
             f"{results.study.line.slope_permille:g} ‰ as a function of time: {_became(time)}; where the car is: "
             f"{_became(place)}.")

@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 
 from workbench.files.toml import Number, Positive, SourcedRecord, Text, Whole
 from workbench.model.desired_curve import TimedCruise
+from workbench.paper.checks import LearningTrials, at_most
 from workbench.paper.only_full import ExtraTable
 from workbench.paper.reproduced import Change, ReproducedStudy
 
@@ -47,8 +48,7 @@ class MassBounds(SourcedRecord):
 
     @model_validator(mode="after")
     def _in_order(self) -> Self:
-        if self.low_kg > self.high_kg:
-            raise ValueError(f"low_kg = {self.low_kg:g} is above high_kg = {self.high_kg:g}: swap them")
+        at_most("low_kg", self.low_kg, "high_kg", self.high_kg)
         return self
 
 
@@ -66,20 +66,13 @@ class Gains(SourcedRecord):
     gamma_M: Gain
 
 
-class Trials(SourcedRecord):
+class Trials(LearningTrials):
     """How many iterations, which of them the figures show, and where the auxiliary state starts in each."""
 
     count: Trial
     shown: Annotated[tuple[Trial, ...], Field(min_length=1, max_length=6)]
     lambda_1_m: Number = Field(ge=-1e3, le=1e3)
     lambda_2_mps: Number = Field(ge=-100, le=100)
-
-    @model_validator(mode="after")
-    def _shown_trials_run(self) -> Self:
-        for trial in self.shown:
-            if trial > self.count:
-                raise ValueError(f"shown names trial {trial}, but the last one is {self.count}: correct it")
-        return self
 
 
 class Sampling(SourcedRecord):
@@ -157,5 +150,4 @@ class ChenStudy(ReproducedStudy):
         if self.learned > MOST_LEARNED:
             raise ValueError(f"sampling.period_s = {period:g} asks for {self.learned / 1e6:.0f} million learned "
                              f"numbers, {8e-9 * self.learned:.1f} GB: sample more coarsely or shorten the trip")
-        if self.cost.end_s > self.reference.trip_time_s:
-            raise ValueError("cost.end_s is beyond reference.trip_time_s: lower it")
+        at_most("cost.end_s", self.cost.end_s, "reference.trip_time_s", self.reference.trip_time_s)

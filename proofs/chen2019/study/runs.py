@@ -74,11 +74,6 @@ class ChenResults(Results[ChenStudy, RunCase, CarsRun]):
         """The runs of a group of changes."""
         return self.under(lambda change: change.group == name)
 
-    def find(self, **values: object) -> CarsRun | None:
-        """The run with exactly these values changed (dots as double underscores), if the study has it."""
-        wanted = {key.replace("__", "."): value for key, value in values.items()}
-        return next((run for _, run in self.under(lambda change: change.set == wanted)), None)
-
     def with_more_trials(self) -> list[tuple[int, CarsRun]]:
         """Runs that differ by the number of their trials alone, with it."""
         return [(change.set["trials.count"], run) for change, run in self.changed_runs("trials.count")]

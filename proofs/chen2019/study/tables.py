@@ -172,18 +172,20 @@ def forces(results: ChenResults) -> ResultTable:
 
 
 def cost(results: ChenResults) -> ResultTable:
-    """Time of a sample against the number of cars."""
+    """Time of a sample, and of a step of MPC, against the number of cars."""
     study, measured = results.study, results.measured
     cars = ", ".join("motor car" if car == "1" else "trailer" for car in study.train.motor_pattern)
+    of_mpc = {trip.cars: (trip.step_s, trip.step_s_p99) for trip in measured.longer}
     return ResultTable(
         "What a sample costs", f"trains of {cars} and so on, {study.cost.end_s:g} s, fastest of {study.cost.trials} trials",
         ("Cars", Column("a sample", "µs", 1e-6), Column("a sample and car", "µs", 1e-6),
          Column(f"{study.trials.count} trials of {study.reference.trip_time_s:g} s", "s"),
-         Column("Memory of the estimates", "MB", 1e6)),
+         Column("Memory of the estimates", "MB", 1e6), Column("a step of MPC", "µs", 1e-6), Column("p99", "µs", 1e-6)),
         tuple((count, step_s, step_s / count, step_s * study.samples * study.trials.count,
-               8.0 * study.samples * (3 * count + 3)) for count, step_s in measured.by_length.items()),
+               8.0 * study.samples * (3 * count + 3), *of_mpc.get(count, (None, None)))
+              for count, step_s in measured.by_length.items()),
         f"Train and law together, one core, compiling left out. The time grows as the number of cars to the power "
-        f"{fixed(measured.exponent, 2)}.")
+        f"{fixed(measured.exponent, 2)}. MPC of all cars, as beside it.")
 
 
 TABLES = (statements, groups, bounds, forces, cost)

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
 from itertools import accumulate
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -27,22 +26,6 @@ if TYPE_CHECKING:
 LAW = "jiao2025.icfdl"
 
 
-@dataclass(frozen=True)
-class MpcTrip:
-    """MPC of a kind on the trip of a reading: mean and largest error, time of a step, what it counted.
-
-    mse: mean of e^2 over the samples, as of a trial, m^2/s^2; jerk: RMS of the second difference of the speed, m/s^3.
-    """
-
-    reading: str
-    kind: str
-    mse: float
-    largest_mps: float
-    jerk: float
-    step_s: float
-    counters: dict[str, int]
-
-
 def _curve(speed: Array, step_s: float) -> DesiredCurve:
     """Through the speeds of (16) at the samples; the acceleration begins and ends at zero within one of them."""
     rate = np.gradient(speed, step_s)
@@ -53,13 +36,12 @@ def _curve(speed: Array, step_s: float) -> DesiredCurve:
                                for k, (s, v, a) in enumerate(zip(places, speed, rate, strict=True))))
 
 
-def run_mpc(study: JiaoStudy, task: tuple[str, str], factors: Factors = NOMINAL) -> MpcTrip:
-    """The trip of (reading, kind); MPC knows mass and mean resistance, and neither grades nor their changes.
+def run_mpc(study: JiaoStudy, reading: str, kind: str, factors: Factors = NOMINAL) -> dict[str, Any]:
+    """A trip as a row, SI units; MPC knows mass and mean resistance, and neither grades nor their changes.
 
     factors: by which mass and resistance (`davis_a`) of the train differ from what MPC knows.
     """
-    name, kind = task
-    case, data = Case(name, LAW, study.trials.seed), study.mpc
+    case, data = Case(reading, LAW, study.trials.seed), study.mpc
     stated, of = plan(study, case), plan_on(study, case, factors)
     assert data is not None
     data = data.model_copy(update={"period_s": of.step_s})
@@ -78,6 +60,7 @@ def run_mpc(study: JiaoStudy, task: tuple[str, str], factors: Factors = NOMINAL)
                                          train)
         met = kernel.step_position(met, speed[j], train)
         place += of.step_s * (speed[j] + speed[j + 1]) / 2  # what an odometer shows; (1) needs no position
-    error = of.desired[1:] - speed[1:]
-    return MpcTrip(name, kind, float(np.mean(error**2)), float(np.abs(error).max()), jerk_rms(speed, of.step_s),
-                   float(np.median(taken)), dict(mpc.counters))
+    error, jerk = of.desired[1:] - speed[1:], jerk_rms(speed, of.step_s)
+    return {"failed": None, "speed_rms": float(np.sqrt(np.mean(error**2))), "jerk_rms": jerk, "logged_jerk_rms": jerk,
+            "largest_mps": float(np.abs(error).max()), "step_s": float(np.median(taken)),
+            "counters": dict(mpc.counters)}

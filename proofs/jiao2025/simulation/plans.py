@@ -64,9 +64,11 @@ def plan(study: JiaoStudy, case: Case) -> TrialPlan:
 
 
 def _kept(study: JiaoStudy, case: Case) -> tuple[int, ...]:
-    """The trials of which figures show every sample."""
-    drawn = [Case(entry.reading, entry.law, study.trials.seed) for entry in study.shown]
-    return tuple(sorted({*study.trials.compared, *study.trials.line_shown})) if case in drawn else ()
+    """The trials of which figures show every sample, and the last, whose jerk is held against that of MPC."""
+    stated = case == Case(case.reading, case.law, study.trials.seed)
+    drawn = {(entry.reading, entry.law) for entry in study.shown}
+    shown = {*study.trials.compared, *study.trials.line_shown} if (case.reading, case.law) in drawn else set()
+    return tuple(sorted(shown | {study.trials.count})) if stated else ()
 
 
 def plan_on(study: JiaoStudy, case: Case, factors: Factors) -> TrialPlan:

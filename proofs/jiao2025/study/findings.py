@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from workbench.files.numbers import number
-from workbench.paper.findings import LackingError
+from workbench.paper.findings import required, some
 from workbench.paper.learning_comparison import rises
 
 from ..simulation.plans import desired_trip
@@ -51,9 +51,8 @@ def _mixed_units(results: JiaoResults) -> str:
     """Each law in the unit in which it learns."""
     ours = [(entry, run) for entry, run in results.shown() if entry.law == ICFDL and outcome(run) == "learns"]
     theirs = [(entry, run) for entry, run in results.shown() if entry.law == PD and run.failed is None]
-    if not ours or not theirs or ours[0][0].reading == theirs[0][0].reading:
-        raise LackingError
-    (one, first), (other, second) = ours[0], theirs[0]
+    (one, first), (other, second) = some(ours)[0], some(theirs)[0]
+    required(one.reading != other.reading)
     units = [results.study.readings[entry.reading].label for entry in (one, other)]
     return (f"The printed order does come out when iCFDL-MFAILC has u in {units[0]} and PD in {units[1]}: below in "
             f"{int(np.sum(first.mse[1:] < second.mse[1:]))} of {results.study.trials.count} trials, "

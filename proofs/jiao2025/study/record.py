@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
 from typing import Annotated, Any, Literal, Self
 
 import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
 from workbench.files.toml import Name, Number, Positive, Record, SourcedRecord, Text, Whole
-from workbench.paper.reproduced import ReproducedStudy, one_of
+from workbench.paper.checks import LearningTrials, at_most, increasing, one_of
+from workbench.paper.reproduced import ReproducedStudy
 from workbench.paper.results import Array
 
 from ..laws import TRIAL_LAWS
@@ -51,15 +51,16 @@ class Line(SourcedRecord):
 
     @model_validator(mode="after")
     def _sections_follow_each_other(self) -> Self:
-        ends = [section.end_fraction for section in self.sections]
-        if any(b <= a for a, b in pairwise(ends)) or ends[-1] != 1.0:
-            raise ValueError("sections: end_fraction must increase from section to section and end at 1: correct it")
+        increasing("sections: end_fraction", (section.end_fraction for section in self.sections))
+        if self.sections[-1].end_fraction != 1.0:
+            raise ValueError("sections: the last end_fraction must be 1: correct it")
         return self
 
 
-class Trials(SourcedRecord):
+class Trials(LearningTrials):
     """How many trials, of which lengths (in the k of (16)), and which of them the figures show."""
 
+    SHOWN = ("compared", "line_shown")
     count: Trial
     desired_length_k: Whole = Field(ge=1601, le=2000)
     shortest_length_k: Whole = Field(ge=1, le=1999)
@@ -69,13 +70,8 @@ class Trials(SourcedRecord):
     seeds: Whole = Field(ge=2, le=1000)
 
     @model_validator(mode="after")
-    def _fit_together(self) -> Self:
-        if self.shortest_length_k >= self.desired_length_k:
-            raise ValueError(f"shortest_length_k = {self.shortest_length_k} is not below desired_length_k = "
-                             f"{self.desired_length_k}: T_i is drawn from above the one up to the other")
-        for key in ("compared", "line_shown"):
-            if any(trial > self.count for trial in getattr(self, key)):
-                raise ValueError(f"{key} names a trial beyond the last, {self.count}: correct it")
+    def _lengths_are_drawn_from_above_the_shortest(self) -> Self:
+        at_most("shortest_length_k", self.shortest_length_k, "desired_length_k - 1", self.desired_length_k - 1)
         return self
 
 

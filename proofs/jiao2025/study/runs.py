@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from workbench.model.desired_curve import DesiredCurve
 from workbench.paper.learning_comparison import rises
-from workbench.paper.reproduced import Change, Results
+from workbench.paper.reproduced import Change, Results, in_words
 from workbench.paper.tracked import Tracked
 
 from .. import laws
 from ..laws import TRIAL_LAWS
-from ..simulation.mpc_trip import MpcTrip
 from ..simulation.plans import Case, plan
 from ..simulation.trials import TrialRun, run_trials
 from .record import JiaoStudy, Shown
@@ -58,18 +56,15 @@ def run_case(study: JiaoStudy, case: Case) -> TrialRun:
 
 def name_of(study: JiaoStudy, case: Case) -> str:
     """A run in words: law, reading, and what is not as stated."""
-    words = (case.law, case.reading, "resistance against the motion" if case.opposed else None,
-             study.change_title(case.change),
-             None if case.unit_mps2 is None else f"unit of u {case.unit_mps2:.3g} m/s^2",
-             None if case.seed == study.trials.seed else f"seed {case.seed}")
-    return ", ".join(filter(None, words))
+    return in_words(case.law, case.reading, "resistance against the motion" if case.opposed else None,
+                    study.change_title(case.change),
+                    None if case.unit_mps2 is None else f"unit of u {case.unit_mps2:.3g} m/s^2",
+                    None if case.seed == study.trials.seed else f"seed {case.seed}")
 
 
 @dataclass(frozen=True)
 class JiaoResults(Results[JiaoStudy, Case, TrialRun]):
-    """The study and its runs; of_mpc: (reading, kind) -> trip."""
-
-    of_mpc: Mapping[tuple[str, str], MpcTrip] = field(default_factory=dict)
+    """The study and its runs by what tables, figures and findings ask for."""
 
     def run(self, reading: str, law: str, **other: Any) -> TrialRun:
         """The run of a law in a reading; other: what of its case is not as stated."""

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from workbench.paper.reproduction import Reproduction
 
-from .comparison import COMPARISON
+from .comparison import COMPARISON, TRACK
 from .figures import PLOTS
 from .findings import FINDINGS
 from .record import LiuStudy
-from .runs import LiuResults, left_out, run_case, run_cases, run_row, title_of, track
+from .runs import LiuResults, left_out, run_case, run_cases, title_of
 from .tables import TABLES
 
-REPRODUCTION = Reproduction(LiuStudy, run_cases, run_case, title_of, run_row, LiuResults, TABLES, PLOTS, FINDINGS,
-                            COMPARISON, track, left_out=left_out)
+REPRODUCTION = Reproduction(LiuStudy, run_cases, run_case, title_of, results=LiuResults, tables=TABLES, plots=PLOTS,
+                            findings=FINDINGS, beside=COMPARISON, track=TRACK, left_out=left_out)
 KIND = REPRODUCTION.kind

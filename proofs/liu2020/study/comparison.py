@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
-from workbench.paper.comparison import ComparedRun, Task, TripComparison, compared_row, comparison_note, driven
+from workbench.paper.comparison import ComparedRun, Task, TripComparison
 from workbench.paper.drivers import MPC_NAMES, MPC_TITLES, Drivers, keys_in
-from workbench.simulate.closed_loop import NOMINAL, Factors
+from workbench.paper.reproduced import STATED
+from workbench.paper.trip_drive import TripDrive
+from workbench.simulate.closed_loop import Run, Setting
 
 from .. import plant
 from ..laws import FEEDBACK_GAINS, LAWS
 from ..simulation.trip import davis_newton, run_under, setting_of
 from .record import LiuStudy
-from .runs import COMPARED_LAWS, LiuResults, RunCase, compared, left_out, run_cases
+from .runs import COMPARED_LAWS, RunCase, left_out, run_cases
 
 # What is held against MPC: the laws with their signs corrected, by speed and by the position alone.
 LAW_NAMES = {law.rpartition(".")[2]: LAWS[law] for law in COMPARED_LAWS}
@@ -33,16 +34,14 @@ def keys(study: LiuStudy, name: str) -> dict[str, str]:
     return gains | keys_in("adaptation", ADAPTATION) | keys_in("sampling", FILTER if name == "position_only" else ())
 
 
-def drive(study: LiuStudy, name: str, place: str, factors: Factors = NOMINAL) -> dict[str, Any]:
-    """One trip under a disturbance, of a law with the gains of Table 4's column.
+def _law(study: LiuStudy, name: str, place: str, setting: Setting) -> Run:
+    """A law with the gains of Table 4's column."""
+    return run_under(LAW_NAMES[name], study, study.table_4_column, setting)
 
-    MPC knows mass and general resistance, chi among them, and neither slopes nor disturbances; factors: by which the
-    train's mass and general resistance differ from what controllers know.
-    """
-    run = driven(study, name, setting_of(study, place), factors,
-                 lambda setting: run_under(LAW_NAMES[name], study, study.table_4_column, setting),
-                 study.train.mass_kg / study.train.chi, davis_newton(study.train), plant.model())
-    return compared_row(run, study.line.length_m)
+
+def _known(study: LiuStudy, _: Setting) -> tuple[float, tuple[float, float, float]]:
+    """Mass and general resistance, chi among them, and neither slopes nor disturbances."""
+    return study.train.mass_kg / study.train.chi, davis_newton(study.train)
 
 
 def variants(study: LiuStudy, name: str) -> dict[str, LiuStudy]:
@@ -56,7 +55,10 @@ def value_words(column: int) -> str:
     return f", Value {column}"
 
 
-DRIVERS = Drivers({name: law.title for name, law in LAW_NAMES.items()} | MPC_TITLES, places, keys, drive, variants)
+DRIVE = TripDrive(setting_of, _law, _known, plant.model())
+# The last column of Table 2 with the signs corrected; the networks stay where the study puts them.
+TRACK = DRIVE.tracking("corrected", lambda study: study.runs.table_3_disturbance)
+DRIVERS = Drivers({name: law.title for name, law in LAW_NAMES.items()} | MPC_TITLES, places, keys, DRIVE.row, variants)
 
 
 def drawn_runs(study: LiuStudy, runs: Sequence[ComparedRun]) -> tuple[list[ComparedRun], str]:
@@ -66,23 +68,13 @@ def drawn_runs(study: LiuStudy, runs: Sequence[ComparedRun]) -> tuple[list[Compa
     return chosen, study.disturbances[study.runs.table_3_disturbance].title
 
 
-def note(study: LiuStudy, runs: Sequence[ComparedRun]) -> str:
-    """For the table of the comparison."""
-    return comparison_note(study, runs, study.sampling.period_s,
-                           shorter="The tuning's line is shorter than this one, see the file.")
-
-
-def own_tasks(study: LiuStudy) -> dict[Task, RunCase]:
+def own_cases(study: LiuStudy) -> dict[Task, RunCase]:
     """What the comparison need not run again: the study's own runs of the laws and columns that it compares."""
     names = {law.id: name for name, law in LAW_NAMES.items()}
     return {Task(case.disturbance, names[case.law], value_words(case.column)): case for case in run_cases(study)
-            if compared(study, case) and not left_out(study, case)}
+            if case.law in COMPARED_LAWS and case.column in study.compared_columns
+            and (case.change, case.leak_rate_per_s) == (STATED, None) and not left_out(study, case)}
 
 
-def own_rows(results: LiuResults) -> dict[Task, Mapping[str, Any]]:
-    """The rows of `own_tasks`."""
-    return {task: row for task, case in own_tasks(results.study).items()
-            if (row := results.runs[case].compared) is not None}
-
-
-COMPARISON = TripComparison(DRIVERS, "disturbance", note, drawn_runs, TOLD, own_tasks=own_tasks, own_rows=own_rows)
+COMPARISON = TripComparison(DRIVERS, "disturbance", lambda study: study.sampling.period_s, drawn_runs, TOLD,
+                            own_cases=own_cases)

@@ -8,14 +8,14 @@ from itertools import pairwise
 import numpy as np
 
 from workbench.files.numbers import number
-from workbench.paper.findings import LackingError, needed, some, span
+from workbench.paper.findings import needed, required, some, span
 
 from ..laws import LAWS
 from ..simulation.trip import desired_curve
 from ..steady_run import eigenvalues, largest_step_s
 from .record import COLUMNS
-from .runs import BY_RATE, CORRECTED, FEEDBACK, SIGN_LAWS, LiuResults, RunResult
-from .tables import ENERGY, QUANTITIES, RMS
+from .runs import BY_RATE, CORRECTED, FEEDBACK, RMS, SIGN_LAWS, LiuResults, RunResult, number_of
+from .tables import ENERGY, QUANTITIES
 
 CASE_1 = (1, 2, 3, 4, 5)
 HIGH_GAIN = (4, 5, 6, 7, 8, 9)  # where the observer is fast against the reference
@@ -39,7 +39,7 @@ def _course(numbers: list[float]) -> str:
 def _ratio(results: LiuResults, runs: list[RunResult], name: str) -> str:
     """Smallest and largest ratio of an obtained number to Table 3's, as text."""
     known = [value / results.printed(results.study.table_3, run.case.column, name) for run in runs
-             if (value := run.numbers.get(name)) is not None]
+             if (value := number_of(run, name)) is not None]
     return f"{QUANTITIES[name].title} {span(known) if known else 'not at all'}"
 
 
@@ -91,7 +91,7 @@ def _inferred(results: LiuResults) -> str:
             f"give, over printed, {_ratios(results, runs)}: most of Table 3 can be had from the feedback loop, at a k₅ "
             "that Table 2 does not print; networks and robust terms are not to be seen in it.")
     lost = [column for column, run in by_column.items() if run.failed or (
-        run.numbers["v_tilde_mps"] or 0.0) > 10 * results.printed(study.table_3, column, "v_tilde_mps")]
+        number_of(run, "v_tilde_mps") or 0.0) > 10 * results.printed(study.table_3, column, "v_tilde_mps")]
     if lost:
         text += (f" Not all of it: Values {' and '.join(map(str, lost))} diverge or oscillate, where the paper calls "
                  f"the input of Value 1 jittery")
@@ -125,8 +125,7 @@ def _control_gain(results: LiuResults) -> str:
     for columns in ((5, 6), (7, 8)):
         for name in ("position_m", "speed_mps"):
             pair, of = _values(results, CORRECTED, name, columns), QUANTITIES[name]
-            if not _falls(pair):
-                raise LackingError
+            required(_falls(pair))
             said.append(f"{of.title} from {number(pair[0])} to {number(pair[1])} {of.unit}")
     return f"More control gain tracks better, as the paper says: Values 5 to 6 and 7 to 8 take {', '.join(said)}."
 
@@ -137,7 +136,7 @@ def _energy(results: LiuResults) -> Iterator[str]:
     yield (f"Energy at Value {column}: {number(both / 1e11)}·10¹¹ J of traction and braking, "
            f"{number(traction / 1e11)} of traction alone, against {study.table_3.energy[column - 1] / 1e11:g} printed "
            f"without a unit.")
-    others = [f"{change.title}: {number((run.numbers.get(ENERGY) or 0.0) / 1e11)}" for change, run in results.assumed(
+    others = [f"{change.title}: {number((number_of(run, ENERGY) or 0.0) / 1e11)}" for change, run in results.assumed(
         lambda change: bool({"train.davis_unit", "line.length_m"} & set(change.set)))
         if run.case.column == column and not run.failed]
     if others:
@@ -147,26 +146,23 @@ def _energy(results: LiuResults) -> Iterator[str]:
 def _slow_disturbance(results: LiuResults) -> str:
     """The energy that the slow disturbance can add at most, from its force and the way that is left."""
     study, names = results.study, list(results.study.disturbances)
-    if not {"none", "slow"} <= set(names):
-        raise LackingError
+    required({"none", "slow"} <= set(names))
     printed = study.table_4.energy[names.index("slow")] - study.table_4.energy[names.index("none")]
     push, curve = study.disturbances["slow"], desired_curve(study)
     force = push.largest_n / study.train.chi
     most = force * (curve.length_m - float(curve.at(np.array([push.from_s]))[0][0]))
-    if most >= printed:
-        raise LackingError
+    required(most < printed)
     return (f"Table 4 has the slow disturbance cost {number(printed / 1e11)}·10¹¹ more than none. It takes at most "
             f"{force / 1e6:.2f} MN to balance from {push.from_s:g} s on, at most {number(most / 1e11)}·10¹¹ J over the "
             f"way that is left here: the paper's trip must be far longer, or its energy another quantity.")
 
 
 def _signs(results: LiuResults) -> str:
-    if not results.study.changes:
-        raise LackingError
+    required(bool(results.study.changes))
     runs = results.study.runs
     pairs = [(column, rate) for column in runs.divergence_columns for rate in runs.divergence_leak_rates_per_s]
     by_law = {law: [(rate, results.divergence(column, law, rate)) for column, rate in pairs] for law in SIGN_LAWS}
-    lost = {law: [rate * run.end_s for rate, run in ended if run.failed] for law, ended in by_law.items()}
+    lost = {law: [rate * run.row["end_s"] for rate, run in ended if run.failed] for law, ended in by_law.items()}
     text = (f"The signs, {runs.divergence_change}, over leak rates and columns, runs that diverge: "
             f"{'; '.join(f'{LAWS[law].title}: {len(lost[law])} of {len(pairs)}' for law in SIGN_LAWS)}.")
     times = [time for of_law in lost.values() for time in of_law]
@@ -175,7 +171,7 @@ def _signs(results: LiuResults) -> str:
                  f"1/(Γσ).")
     both = zip(pairs, by_law["liu2020.wrong_learning"], by_law[CORRECTED], strict=True)
     known = [(wrong / right, column, rate, wrong, right) for (column, rate), (_, of_wrong), (_, of_right) in both
-             if (wrong := of_wrong.numbers.get("position_m")) and (right := of_right.numbers.get("position_m"))]
+             if (wrong := number_of(of_wrong, "position_m")) and (right := number_of(of_right, "position_m"))]
     if known:
         _, column, rate, wrong, right = max(known)
         text += (f" The wrong sign of (32) costs tracking, most at Value {column} and {rate:g} 1/s, {number(wrong)} "
@@ -220,7 +216,7 @@ def _sensitivity(results: LiuResults) -> str:
         for name in ("v_tilde_mps", "position_m"):
             before, of = results.rms(column, results.study.runs.sensitivity_law, name), QUANTITIES[name]
             moved = [(abs(np.log(value / before)), change.title, value) for change, run in assumed
-                     if run.case.column == column and before and (value := run.numbers.get(name))]
+                     if run.case.column == column and before and (value := number_of(run, name))]
             if moved and before:
                 _, title, value = max(moved)
                 parts.append(f"{of.title} at Value {column} most to '{title}' ({number(before)} to {number(value)} "
@@ -229,7 +225,7 @@ def _sensitivity(results: LiuResults) -> str:
 
 
 def _cost(results: LiuResults) -> str:
-    cost = [sorted(some(run.step_us for run in results.select(law=law).values() if not run.failed))
+    cost = [sorted(some(run.row["step_us_median"] for run in results.select(law=law).values() if not run.failed))
             for law in (FEEDBACK, CORRECTED)]
     bare, nets = (times[len(times) // 2] for times in cost)
     return (f"A million control steps take {bare:.2f} s without and {nets:.2f} s with two networks of "

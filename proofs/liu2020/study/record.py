@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
 from workbench.files.toml import NonNegative, Number, Positive, SourcedRecord, Text, Whole
 from workbench.model.desired_curve import RampTime
+from workbench.paper.checks import increasing, one_of
 from workbench.paper.only_full import ExtraTable
-from workbench.paper.reproduced import Change, ColumnTable, ReproducedStudy, one_of
+from workbench.paper.reproduced import Change, ColumnTable, ReproducedStudy
 
 from ..laws import LAWS
 
@@ -50,9 +50,8 @@ class Line(SourcedRecord):
 
     @model_validator(mode="after")
     def _sections_in_order(self) -> Self:
-        edges = [edge for section in self.sections for edge in (section.from_m, section.to_m)]
-        if any(after < before for before, after in pairwise((0.0, *edges, self.length_m))):
-            raise ValueError("sections: positions must increase from from_m to to_m and end within length_m: sort them")
+        edges = (edge for section in self.sections for edge in (section.from_m, section.to_m))
+        increasing("sections: from_m and to_m, up to length_m,", (0.0, *edges, self.length_m), repeated=True)
         return self
 
 

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import Any
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
-from workbench.model.desired_curve import DesiredCurve
-from workbench.paper.comparison import compared_row
-from workbench.paper.reproduced import STATED, Results
-from workbench.paper.tracked import Tracked, of_run
-from workbench.simulate.closed_loop import Array
-from workbench.simulate.metrics import measure_run, rms
+from workbench.paper.reproduced import STATED, Results, in_words
+from workbench.paper.trip_run import ERROR, TripRun, signal_numbers, thinned_log, trip_numbers
 
 from ..laws import LAWS
 from ..simulation.trip import run_under, setting_of
@@ -24,14 +20,14 @@ CORRECTED, BY_RATE, PRINTED, FEEDBACK = (
 # Laws that run through all columns of Table 2, those whose curves are drawn, and those of Table 4.
 TABLE_LAWS = (CORRECTED, BY_RATE, PRINTED, "liu2020.printed_rate", FEEDBACK, "liu2020.feedback_rate",
               "liu2020.position_only_speed", "liu2020.position_only")
-DRAWN_LAWS = (CORRECTED, BY_RATE)
 # Those that are held against MPC, by speed and by the position alone.
 COMPARED_LAWS = (CORRECTED, "liu2020.position_only")
+DRAWN_LAWS = (*COMPARED_LAWS, BY_RATE)
 TABLE_4_LAWS = (CORRECTED, BY_RATE, PRINTED, FEEDBACK)
 # Where the signs of (19), (21), (32) and (35) are wrong, one by one.
 SIGN_LAWS = (PRINTED, "liu2020.wrong_leakage", "liu2020.wrong_learning", CORRECTED)
-# One row in so many of the log is drawn.
-DRAWN = 5
+# What rows call the RMS values of Tables 3 and 4.
+RMS = {"s_tilde_m": "s_tilde_rms", "v_tilde_mps": "v_tilde_rms", "position_m": "position_rms", "speed_mps": "speed_rms"}
 
 
 @dataclass(frozen=True)
@@ -53,21 +49,13 @@ class RunCase:
         return self.change == STATED and self.law in DRAWN_LAWS
 
 
-@dataclass(frozen=True)
-class RunResult:
-    """A run as numbers, none of one that failed, and as curves of a thinned log, none unless drawn; SI units.
+RunResult = TripRun[RunCase]
 
-    compared: its row beside MPC, of the laws and columns that are held against it.
-    """
 
-    case: RunCase
-    numbers: dict[str, float]
-    end_s: float
-    largest_position_error_m: float
-    failed: str | None
-    step_us: float
-    curves: dict[str, Array]
-    compared: Mapping[str, Any] | None = None
+def number_of(run: RunResult, name: str) -> float | None:
+    """A number of a run by the name that it has in Tables 3 and 4 or in rows; None of one that failed."""
+    value: float | None = run.row[RMS.get(name, name)]
+    return value
 
 
 def run_cases(study: LiuStudy) -> list[RunCase]:
@@ -84,12 +72,6 @@ def run_cases(study: LiuStudy) -> list[RunCase]:
     return list(dict.fromkeys(found))
 
 
-def compared(study: LiuStudy, case: RunCase) -> bool:
-    """Whether the run is one of those that are held against MPC."""
-    return (case.law in COMPARED_LAWS and case.column in study.compared_columns
-            and (case.change, case.leak_rate_per_s) == (STATED, None))
-
-
 def left_out(study: LiuStudy, case: RunCase) -> bool:
     """Whether a short report leaves out a law beside the printed and the corrected one."""
     return case.change == STATED and case.law in study.further_laws.laws and study.leaves_out(study.further_laws)
@@ -98,31 +80,27 @@ def left_out(study: LiuStudy, case: RunCase) -> bool:
 def title_of(study: LiuStudy, case: RunCase) -> str:
     """A run in words: law, column, and what is not as in Table 3."""
     as_table_3 = case.disturbance == study.runs.table_3_disturbance
-    words = (f"{case.law}, Value {case.column}", None if as_table_3 else study.disturbances[case.disturbance].title,
-             None if case.leak_rate_per_s is None else f"leak rate {case.leak_rate_per_s:g} 1/s",
-             study.change_title(case.change))
-    return ", ".join(filter(None, words))
+    return in_words(f"{case.law}, Value {case.column}",
+                    None if as_table_3 else study.disturbances[case.disturbance].title,
+                    None if case.leak_rate_per_s is None else f"leak rate {case.leak_rate_per_s:g} 1/s",
+                    study.change_title(case.change))
 
 
 def run_case(study: LiuStudy, case: RunCase) -> RunResult:
     """Run a case and measure it; a run that diverges is reported failed."""
     changed = study.changed(case.change)
-    run = run_under(LAWS[case.law], changed, case.column, setting_of(changed, case.disturbance), case.leak_rate_per_s)
-    found = measure_run(run, changed.line.length_m)
-    logged = {"s_tilde_m": run.column("s_tilde"), "v_tilde_mps": run.column("v_tilde"),
-              "position_m": run.position_error,
-              "speed_mps": run.column("v_mps") - run.column("v_desired_mps"),
-              "input_n": changed.train.mass_kg * run.column("u_mps2")}
-    numbers = {} if run.failed else {
-        **{f"{name}_min": float(values.min()) for name, values in logged.items()},
-        **{f"{name}_max": float(values.max()) for name, values in logged.items()},
-        **{name: rms(logged[name]) for name in ("s_tilde_m", "v_tilde_mps")},
-        "position_m": found.position_rms, "speed_mps": found.speed_rms, "energy_J": found.energy_J,
-        "energy_both_J": found.energy_J + run.totals["braking_work_j"], "reversals": run.totals["command_reversals"]}
-    drawn = logged | {name: run.column(name) for name in ("t_s", "s_m", "v_mps", "s_desired_m", "v_desired_mps")}
-    return RunResult(case, numbers, run.end_s, found.largest_position_error, run.failed, found.step_us_median,
-                     {name: values[::DRAWN] for name, values in drawn.items()} if case.drawn else {},
-                     compared_row(run, changed.line.length_m) if compared(study, case) else None)
+    setting = setting_of(changed, case.disturbance)
+    run = run_under(LAWS[case.law], changed, case.column, setting, case.leak_rate_per_s)
+    signals = {"s_tilde": run.column("s_tilde"), "v_tilde": run.column("v_tilde"),
+               "input_n": changed.train.mass_kg * run.column("u_mps2")}
+    drawn = signals | {ERROR: run.position_error, "speed": run.column("v_mps") - run.column("v_desired_mps"),
+                       **{name: run.column(name) for name in ("s_m", "v_mps", "s_desired_m", "v_desired_mps")}}
+    whole = math.nan if run.failed else 1.0
+    row = trip_numbers(
+        run, setting.curve.length_m, reversals=whole * run.totals["command_reversals"],
+        energy_both_J=whole * (run.totals["traction_work_j"] + run.totals["braking_work_j"]),
+        **signal_numbers(run, signals))
+    return TripRun(case, row, thinned_log(run, drawn) if case.drawn else {})
 
 
 @dataclass(frozen=True)
@@ -159,7 +137,7 @@ class LiuResults(Results[LiuStudy, RunCase, RunResult]):
 
     def rms(self, column: int, law: str, name: str) -> float | None:
         """A number of a column's run of Table 3; None where it failed."""
-        return self.table_3(column, law).numbers.get(name)
+        return number_of(self.table_3(column, law), name)
 
     def printed(self, table: Printed, column: int, name: str) -> float:
         """A value of Table 3 for its column, or of Table 4 for the disturbance that Table 3 is run with."""
@@ -175,29 +153,3 @@ class LiuResults(Results[LiuStudy, RunCase, RunResult]):
         return {f"{name}, Value {column}": implied(study, column, *(
             self.printed(table, column, key) for key in ("s_tilde_m", "v_tilde_mps", "position_m")))
             for table, name, column in where}
-
-
-def run_row(study: LiuStudy, case: RunCase, result: RunResult) -> dict[str, Any]:
-    """A run as data, SI units; inputs in N; numbers under the names of `workbench compare` where it has them."""
-    named = {"position_m_min": "position_error_min", "position_m_max": "position_error_max",
-             "speed_mps_min": "speed_error_min", "speed_mps_max": "speed_error_max", "position_m": "position_rms",
-             "speed_mps": "speed_rms", "s_tilde_m": "s_tilde_rms", "v_tilde_mps": "v_tilde_rms"}
-    names = (*named, "energy_J", "energy_both_J", "input_n_min", "input_n_max", "reversals")
-    return {
-        "controller": case.law, "column": case.column, "disturbance": case.disturbance,
-        "change": study.change_title(case.change), "leak_rate_per_s": case.leak_rate_per_s,
-        **{named.get(name, name): result.numbers.get(name) for name in names},
-        "largest_position_error": result.largest_position_error_m, "end_s": result.end_s,
-        "step_us_median": result.step_us, "failed": result.failed}
-
-
-def track(study: LiuStudy, curve: DesiredCurve | None) -> Tracked:
-    """The last column of Table 2 with the signs corrected, on a curve or on the study's own.
-
-    The networks stay where the study puts them.
-    """
-    law, setting = LAWS[CORRECTED], setting_of(study, study.runs.table_3_disturbance)
-    if curve:
-        setting = replace(setting, curve=curve, end_s=curve.trip_time_s)
-    run = run_under(law, study, study.table_4_column, setting)
-    return of_run(study.paper, replace(run, controller=f"{law.id}, Value {study.table_4_column}"), setting.curve)

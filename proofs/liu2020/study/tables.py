@@ -13,9 +13,18 @@ from workbench.paper.study_tables import printed_cells, printed_columns, sensiti
 
 from ..laws import LAWS
 from ..steady_run import DAMPED, eigenvalues, largest_step_s
-from .runs import ALL_COLUMNS, BY_RATE, CORRECTED, SIGN_LAWS, TABLE_4_LAWS, TABLE_LAWS, LiuResults, RunResult
+from .runs import (
+    ALL_COLUMNS,
+    BY_RATE,
+    CORRECTED,
+    RMS,
+    SIGN_LAWS,
+    TABLE_4_LAWS,
+    TABLE_LAWS,
+    LiuResults,
+    number_of,
+)
 
-RMS = ("s_tilde_m", "v_tilde_mps", "position_m", "speed_mps")
 ENERGY = "energy_both_J"
 QUANTITIES = {"s_tilde_m": Column("s̃", "m"), "v_tilde_mps": Column("ṽ", "m/s"), "position_m": Column("s−s_d", "m"),
               "speed_mps": Column("v−v_d", "m/s"), "input_n": Column("u", "N")}
@@ -41,7 +50,7 @@ def _table_4(results: LiuResults) -> ResultTable:
         runs = [results.table_4(key, law) for law in laws]
         for name in ("energy", *RMS):
             energy, printed = name == "energy", float(getattr(study.table_4, name)[index])
-            numbers = [run.numbers.get(ENERGY if energy else name) for run in runs]
+            numbers = [number_of(run, ENERGY if energy else name) for run in runs]
             rows.append((push.title, "energy (10¹¹ J)" if energy else QUANTITIES[name].heading,
                          Quantity(printed, si=ENERGY_UNIT if energy else 1.0, digits=None),
                          *(Quantity(number, si=ENERGY_UNIT) if energy else number for number in numbers)))
@@ -66,7 +75,7 @@ def _inferred(results: LiuResults) -> ResultTable:
         column, both = run.case.column, run.case.column == study.table_4_column
         for table, where in ((study.table_3, "Table 3"), *(((study.table_4, "Table 4"),) if both else ())):
             rows.append((f"{column}, {where}" if both else f"{column}", *printed_cells(
-                ((results.printed(table, column, name), run.numbers.get(name)) for name in RMS), ratio=True)))
+                ((results.printed(table, column, name), number_of(run, name)) for name in RMS), ratio=True)))
     return ResultTable(
         "Table 3 as its numbers imply it was computed", "paper, Table 3; inferred",
         ("Value", *printed_columns([QUANTITIES[name] for name in RMS], ratio=True)), tuple(rows),
@@ -75,12 +84,12 @@ def _inferred(results: LiuResults) -> ResultTable:
 
 def _ranges(results: LiuResults) -> ResultTable:
     rows = []
-    for figure, (name, quantity) in enumerate(QUANTITIES.items(), start=14):
+    in_rows = ("s_tilde", "v_tilde", "position_error", "speed_error", "input_n")
+    for figure, ((name, quantity), in_row) in enumerate(zip(QUANTITIES.items(), in_rows, strict=True), start=14):
         for key, push in results.study.disturbances.items():
-            numbers = results.table_4(key, CORRECTED).numbers
+            row = results.table_4(key, CORRECTED).row
             rows.append((f"Figure {figure}", quantity.heading, push.title,
-                         *getattr(results.study.figure_ranges, name), numbers.get(f"{name}_min"),
-                         numbers.get(f"{name}_max")))
+                         *getattr(results.study.figure_ranges, name), *(row[f"{in_row}_{end}"] for end in ("min", "max"))))
     return ResultTable("Ranges of Figures 14 to 18", "paper, text to Figures 14 to 18",
                        ("figure", "shows", "disturbance", "printed from", "to", "obtained from", "to"), tuple(rows),
                        "Value 10, signs corrected. The rates of the reference follow from Figure 18's range; no other "
@@ -101,18 +110,14 @@ def _laws_by_column(results: LiuResults) -> ResultTable:
 
 def _divergence(results: LiuResults) -> ResultTable:
     runs = results.study.runs
-    rows = [(column, LAWS[law].title, *(_position(results.divergence(column, law, rate))
-                                        for rate in runs.divergence_leak_rates_per_s))
+    rows = [(column, LAWS[law].title, *(run.ended or number_of(run, "position_m") for run in (
+        results.divergence(column, law, rate) for rate in runs.divergence_leak_rates_per_s)))
             for column in runs.divergence_columns for law in SIGN_LAWS if results.study.changes]
     return ResultTable(
         "What the printed signs do", "claims 19.leakage, 21.leakage, 32.cancels, 35.leakage",
         ("Value", "law", *(f"{rate:g} 1/s" for rate in runs.divergence_leak_rates_per_s)), tuple(rows),
         f"Columns: leak rate Γσ = αβ of all four estimates; {runs.divergence_change}. Cells: RMS of s−s_d in m, or "
         f"when the run diverged.")
-
-
-def _position(run: RunResult) -> Cell:
-    return run.numbers["position_m"] if run.failed is None else Phrase("at {} s", (Quantity(run.end_s, decimals=0),))
 
 
 def _steps(results: LiuResults) -> ResultTable:
@@ -144,7 +149,7 @@ def _sensitivity(results: LiuResults) -> ResultTable:
     return sensitivity_table(
         "Sensitivity to what is assumed", ("law", "Value", *(QUANTITIES[name] for name in RMS),
                                           Column("energy", "10¹¹ J", ENERGY_UNIT)),
-        [(title, [(LAWS[run.case.law].title, run.case.column, *map(run.numbers.get, (*RMS, ENERGY))) for run in runs])
+        [(title, [(LAWS[run.case.law].title, run.case.column, *(number_of(run, name) for name in (*RMS, ENERGY))) for run in runs])
          for title, runs in entries], RMS_NOTE)
 
 

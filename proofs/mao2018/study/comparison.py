@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 from workbench.mpc.controller import KINDS
-from workbench.paper.comparison import ComparedRun, Task, TripComparison, compared_row, comparison_note, driven
+from workbench.paper.comparison import ComparedRun, Task, TripComparison
 from workbench.paper.drivers import MPC_TITLES, Drivers, keys_in
-from workbench.simulate.closed_loop import NOMINAL, Factors, Run
+from workbench.paper.trip_drive import TripDrive
+from workbench.simulate.closed_loop import Run, Setting
 
 from ..plant import train
 from ..simulation.trip import law_of, run_under, setting_of, wrong_signs
@@ -30,23 +30,20 @@ def keys(study: MaoStudy, name: str) -> dict[str, str]:
     return keys_in(f"tunings.{next(iter(study.tunings))}", RATES) | keys_in("law", GAINS)
 
 
-def drive_case(study: MaoStudy, name: str, number: int, factors: Factors = NOMINAL) -> Run:
-    """A case under the law with its signs corrected or under MPC.
-
-    MPC knows the healthy train in its first mode, and neither later modes nor failures; factors: by which the train's
-    mass and resistance differ from what controllers know.
-    """
-    case, tuning = study.cases[number - 1], next(iter(study.tunings.values()))
-    nominal = setting_of(study, case, tuning)
-    a, b, c = (float(value) for value in nominal.changes[0, 1:4])
-    return driven(study, name, nominal, factors,
-                  lambda setting: run_under(law_of(case, wrong_signs(case)), study, case, tuning, setting),
-                  nominal.mass_kg, (a, b, c), train)
+def _setting(study: MaoStudy, place: str) -> Setting:
+    return setting_of(study, study.cases[int(place) - 1], next(iter(study.tunings.values())))
 
 
-def drive(study: MaoStudy, name: str, place: str, factors: Factors = NOMINAL) -> dict[str, Any]:
-    """One run of a case."""
-    return compared_row(drive_case(study, name, int(place), factors), float(study.reference.curve().length_m))
+def _law(study: MaoStudy, name: str, place: str, setting: Setting) -> Run:
+    """The law of a case with its signs corrected, in the first tuning."""
+    case, tuning = study.cases[int(place) - 1], next(iter(study.tunings.values()))
+    return run_under(law_of(case, wrong_signs(case)), study, case, tuning, setting)
+
+
+def _known(_: MaoStudy, setting: Setting) -> tuple[float, tuple[float, float, float]]:
+    """The healthy train in its first mode, and neither later modes nor failures."""
+    a, b, c = (float(value) for value in setting.changes[0, 1:4])
+    return setting.mass_kg, (a, b, c)
 
 
 def variants(study: MaoStudy, name: str) -> dict[str, MaoStudy]:
@@ -54,7 +51,9 @@ def variants(study: MaoStudy, name: str) -> dict[str, MaoStudy]:
     return {} if name == LAW else {"": study}
 
 
-DRIVERS = Drivers({LAW: "signs corrected"} | MPC_TITLES, places, keys, drive, variants)
+DRIVE = TripDrive(_setting, _law, _known, train)
+TRACK = DRIVE.tracking(LAW, lambda study: "1")  # the healthy train
+DRIVERS = Drivers({LAW: "signs corrected"} | MPC_TITLES, places, keys, DRIVE.row, variants)
 
 
 def with_own_runs(results: MaoResults, others: Sequence[ComparedRun]) -> list[ComparedRun]:
@@ -65,19 +64,15 @@ def with_own_runs(results: MaoResults, others: Sequence[ComparedRun]) -> list[Co
         if results.wrong(number):
             chosen = {"as printed": results.printed(number, results.first_tuning),
                       DRIVERS.titles[LAW]: results.corrected(number, results.first_tuning)}
-        own += [ComparedRun(Task(str(number), LAW), title, run.row | {
-            "curve": (run.curves["error"].x, run.curves["error"].y)}) for title, run in chosen.items()]
+        own += [ComparedRun(Task(str(number), LAW), title, run.compared) for title, run in chosen.items()]
     return sorted((*own, *others), key=lambda run: (int(run.task.place), run.task.tuned))
 
 
-def note(study: MaoStudy, runs: Sequence[ComparedRun]) -> str:
-    """For the table of the comparison."""
-    tuning = next(iter(study.tunings.values()))
-    return f"{tuning.title}; " + comparison_note(
-        study, runs, tuning.period_s,
-        f"MPC: {KINDS['mpc.offset_free'].information}, that of mode (i) with all motors healthy; the laws: full state, "
-        "parameters unknown, times of the modes and frequencies of the failure known.",
-        "The tuning's runs are shorter than these and of some of the cases, see the file.")
+def note(study: MaoStudy) -> str:
+    """Who knows what."""
+    return (f"The laws: {next(iter(study.tunings.values())).title}, full state, parameters unknown, times of the modes "
+            f"and frequencies of the failure known. MPC: {KINDS['mpc.offset_free'].information}, that of mode (i) with "
+            "all motors healthy.")
 
 
 def drawn_runs(study: MaoStudy, runs: Sequence[ComparedRun]) -> tuple[list[ComparedRun], str]:
@@ -86,4 +81,5 @@ def drawn_runs(study: MaoStudy, runs: Sequence[ComparedRun]) -> tuple[list[Compa
     return [run for run in runs if run.task.place == case], f"case {case}"
 
 
-COMPARISON = TripComparison(DRIVERS, "case", note, drawn_runs, with_own=with_own_runs)
+COMPARISON = TripComparison(DRIVERS, "case", lambda study: next(iter(study.tunings.values())).period_s, drawn_runs,
+                            note=note, with_own=with_own_runs)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 import numpy as np
 
@@ -12,28 +11,15 @@ from workbench.model.events import failure_rows
 from workbench.paper.cells import cell_text
 from workbench.paper.reproduced import STATED
 from workbench.paper.results import Curve, Plot
+from workbench.paper.trip_run import ERROR
 from workbench.simulate.kernel_loop import term
 
 from ..simulation.trip import failures_of
-from .outcomes import ended
 from .runs import START_S, MaoResults, RunResult
 
 # The figures that show how runs settle begin here, and end where an error passes LOST_MM.
 START_OVER_S, LOST_MM = 20.0, 100.0
 TIME, SIZE = "time (s)", "|position error| (m)"
-
-
-def _until(curve: Curve, most: float) -> Curve:
-    """The curve up to where it first exceeds `most`."""
-    beyond = np.abs(curve.y) > most
-    last = max(1, int(np.argmax(beyond))) if beyond.any() else len(curve.y)
-    return Curve(curve.label, curve.x[:last], curve.y[:last])
-
-
-def _size(curve: Curve, label: str) -> Curve:
-    """|y|, without the points where it is zero."""
-    some = curve.y != 0
-    return Curve(label, curve.x[some], np.abs(curve.y[some])) if some.any() else replace(curve, label=label)
 
 
 def _title(results: MaoResults) -> str:
@@ -44,14 +30,13 @@ def _title(results: MaoResults) -> str:
 def _label(results: MaoResults, run: RunResult) -> str:
     signs = results.left(run)
     law = "corrected" if signs == "none" else f"{signs} as printed"
-    return law + (f" ({cell_text(ended(run))})" if run.failed else "")
+    return law + (f" ({cell_text(run.ended)})" if run.failed else "")
 
 
 def _distance(results: MaoResults) -> Plot:
     curves = results.corrected(1, results.first_tuning).curves
     return Plot("Distance of the healthy train", "paper, Figure 1", TIME, "distance (km)",
-                tuple(Curve(label, curves[name].x, curves[name].y / 1e3)
-                      for label, name in (("desired distance", "desired"), ("distance", "distance"))),
+                (curves["desired"].called("desired distance", 1e-3), curves["distance"].called("distance", 1e-3)),
                 "The desired curve is assumed, since Figure 1 is not in the text; on this scale the two coincide.")
 
 
@@ -60,10 +45,9 @@ def _errors(results: MaoResults) -> Iterator[Plot]:
     for number in results.numbers[1:]:
         curves, missing, case = [], [], results.study.cases[number - 1]
         for run in results.select(number=number, tuning=results.first_tuning, change=STATED, end_s=None).values():
-            curve, label = run.curves["error"], _label(results, run)
-            after = curve.x >= START_OVER_S
-            if after.any():
-                curves.append(_until(Curve(label, curve.x[after], 1e3 * curve.y[after]), LOST_MM))
+            label, shown = _label(results, run), run.curves[ERROR].part(START_OVER_S, LOST_MM / 1e3)
+            if shown:
+                curves.append(shown.called(label, 1e3))
             else:
                 missing.append(label)
         yield Plot(
@@ -80,14 +64,14 @@ def _after(start_m: float) -> str:
 
 def _sizes(results: MaoResults) -> Iterator[Plot]:
     for name, tuning in results.study.tunings.items():
-        curves = [_size(run.curves["error"], f"case {run.case.number}") for run in results.all_corrected(name)]
+        curves = [run.curves[ERROR].size().called(f"case {run.case.number}") for run in results.all_corrected(name)]
         yield Plot(f"Size of the position error, all signs corrected, {tuning.title}", "not in the paper", TIME, SIZE,
                    tuple(curves), log_y=True)
 
 
 def _starts(results: MaoResults) -> Plot:
     """The first seconds, in which laws as printed leave the desired curve."""
-    curves = [_size(run.curves["start"], f"case {run.case.number}, {_label(results, run)}")
+    curves = [run.curves["start"].size().called(f"case {run.case.number}, {_label(results, run)}")
               for run in results.stated(results.first_tuning)
               if run.case.mended in ((), results.wrong(run.case.number))]
     return Plot(f"The first {START_S:g} s, laws as printed and corrected", "not in the paper", TIME, SIZE,
@@ -96,7 +80,7 @@ def _starts(results: MaoResults) -> Plot:
 
 def _failure(results: MaoResults) -> Plot:
     """What the failed motor of case 2 gives and what its estimates make of it."""
-    estimates = [replace(results.corrected(2, tuning).curves["failure"], label=f"estimated, {tuning}")
+    estimates = [results.corrected(2, tuning).curves["failure"].called(f"estimated, {tuning}")
                  for tuning in results.study.tunings]
     x, parts = estimates[0].x, failure_rows(failures_of(results.study, results.study.cases[1]))
     true = [sum(term(time, parts, i) for i in range(len(parts)) if parts[i, 0] <= time < parts[i, 1]) for time in x]
@@ -107,7 +91,7 @@ def _failure(results: MaoResults) -> Plot:
 
 def _commands(results: MaoResults) -> Plot:
     mass_t = results.study.train.mass_t
-    curves = [Curve(f"case {run.case.number}", run.curves["command"].x, mass_t / 1e3 * run.curves["command"].y)
+    curves = [run.curves["command"].called(f"case {run.case.number}", mass_t / 1e3)
               for run in results.all_corrected(results.first_tuning) if not run.failed]
     return Plot("Commanded force, all signs corrected", "not in the paper", TIME, "force of all motors (MN)",
                 tuple(curves), f"{_title(results)} The paper states no limit of force.")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -10,8 +9,9 @@ from pydantic import Field
 from workbench.files.toml import Count, Name, NonNegative, Number, Positive, Record, SourcedRecord, Text, Whole
 from workbench.model.desired_curve import SpeedLevels
 from workbench.model.events import Term
+from workbench.paper.checks import at_most, increasing, one_of
 from workbench.paper.only_full import ExtraTable
-from workbench.paper.reproduced import Change, ReproducedStudy, one_of
+from workbench.paper.reproduced import Change, ReproducedStudy
 from workbench.trains.scenario import Interval
 
 from ..laws import MODES, SLOPE_MODE
@@ -184,16 +184,16 @@ class MaoStudy(ReproducedStudy):
         self._cases_fit()
         self._runs_are_finite()
         end = self.reference.end_s
-        if not self.horizon.end_s <= end or not self.sampling.end_s <= end:
-            raise ValueError(f"horizon.end_s or sampling.end_s lies beyond the desired curve's end at {end:g} s")
-        if any(after.from_s < (before.to_s or end) for before, after in pairwise(self.failure)):
-            raise ValueError("failure: its parts overlap, though they are one motor: order them by time")
+        for key, value in (("horizon.end_s", self.horizon.end_s), ("sampling.end_s", self.sampling.end_s)):
+            at_most(key, value, "the desired curve's end", end)
+        edges = (edge for part in self.failure for edge in (part.from_s, part.to_s or end))
+        increasing("failure: from_s and to_s of its parts, which are one motor,", edges, repeated=True)
 
     def _modes_fit(self) -> None:
         if len(self.modes) != len(MODES):
             raise ValueError(f"modes: the laws have estimates for {len(MODES)}, not for {len(self.modes)}")
-        if self.modes[0].start_s != 0 or any(b.start_s <= a.start_s for a, b in pairwise(self.modes)):
-            raise ValueError("modes: start_s must begin at 0 and increase from mode to mode")
+        at_most("modes[0].start_s", self.modes[0].start_s, "the time at which runs begin", 0.0)
+        increasing("modes: start_s", (mode.start_s for mode in self.modes))
         for number, mode in zip(MODES, self.modes, strict=True):
             if (mode.slope_ramp_per_s is not None) != (number == SLOPE_MODE):
                 raise ValueError(f"modes[{number - 1}].slope_ramp_per_s: the laws know a slope that grows in mode "

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 
-from workbench.model.desired_curve import DesiredCurve
-from workbench.paper.reproduced import STATED, Results
+from workbench.paper.cells import Cell, Phrase, Scaled, cell_text
+from workbench.paper.reproduced import STATED, Results, in_words
 from workbench.paper.results import Curve, thinned
-from workbench.paper.tracked import Tracked, of_run
+from workbench.paper.trip_run import ERROR, TripRun, error_curve, thinned_log, trip_numbers
 from workbench.simulate.closed_loop import Run
-from workbench.simulate.metrics import measure_run, rms
+from workbench.simulate.metrics import rms
 from workbench.simulate.stretches import Stretch, stretches
 
 from .. import laws
@@ -41,17 +39,10 @@ class RunCase:
 
 
 @dataclass(frozen=True)
-class RunResult:
-    """What a run leaves: a row of numbers, its stretches between events (those it finished), curves over time.
+class RunResult(TripRun[RunCase]):
+    """stretches: those between events that a run finished; late: see `late_errors`."""
 
-    late: of a run to the end, RMS and size of the position errors from SETTLED_S on.
-    """
-
-    case: RunCase
-    row: dict[str, Any]
     stretches: tuple[Stretch, ...]
-    curves: dict[str, Curve]
-    failed: str | None
     late: tuple[float, float] | None
 
     @property
@@ -64,6 +55,17 @@ class RunResult:
     def settled_m(self) -> float:
         """The largest of the errors that a run settles to before each event."""
         return max(stretch.settled_m for stretch in self.stretches)
+
+    @property
+    def summary(self) -> Cell:
+        """The largest error after the first event and what it settles to, or when it diverged."""
+        return self.ended or Phrase("{}, settles to {}", (Scaled(self.largest_m), Scaled(self.settled_m)))
+
+    @property
+    def outcome(self) -> str:
+        """The same in a sentence's words."""
+        return (cell_text(self.ended) if self.failed else
+                f"up to {Scaled(self.largest_m)}, settling to {Scaled(self.settled_m)}")
 
 
 def variants(case: CaseData) -> tuple[Signs, ...]:
@@ -118,30 +120,17 @@ def simulate(study: MaoStudy, of: RunCase) -> Run:
     return run_under(law_of(case, of.mended), changed, case, tuning, setting_of(changed, case, tuning, of.end_s))
 
 
-def track(study: MaoStudy, curve: DesiredCurve | None) -> Tracked:
-    """The healthy train of case 1 under the first tuning, on a curve or on the study's own."""
-    case, tuning = study.cases[0], next(iter(study.tunings.values()))
-    setting = setting_of(study, case, tuning)
-    setting = replace(setting, curve=curve or setting.curve)
-    run = run_under(law_of(case, ()), study, case, tuning, setting)
-    return of_run(study.paper, replace(run, controller=law_of(case, ()).id), setting.curve)
-
-
 def run_case(study: MaoStudy, of: RunCase) -> RunResult:
     """Run, and take what tables and figures need; a run that failed has its numbers up to its end."""
     run, case = simulate(study, of), study.cases[of.number - 1]
     found = stretches(run, event_times(study), study.horizon.settled_window_s)
-    curves = {"error": thinned("position error", run.column("t_s"), run.position_error)}
-    if of.change == STATED and of.end_s is None:
-        curves |= _more_curves(study, case, run)
-    row = measure_run(run, float(study.reference.curve().length_m)).row() | {
-        "controller": run.controller, "case": of.number, "tuning": of.tuning, "law": law_words(study, of),
-        "change": study.change_title(of.change), "period_s": run.period_s, "end_s": run.end_s,
-        "command_reversals_per_s": run.totals["command_reversals"] / max(run.end_s, run.period_s),
-        "command_change_mps2": run.totals["command_variation_mps2"] / max(1.0, run.totals["commands"]),
-        "loop_gain": _loop_gain(study, case, run), "failure_learned_n": _failure_learned(study, case, run)}
-    row = {key: None if isinstance(value, float) and not math.isfinite(value) else value for key, value in row.items()}
-    return RunResult(of, row, found, curves, run.failed, late_errors(run))
+    more = _more_curves(study, case, run) if of.change == STATED and of.end_s is None else {}
+    row = trip_numbers(
+        run, float(study.reference.curve().length_m), law=law_words(study, of),
+        command_reversals_per_s=run.totals["command_reversals"] / max(run.end_s, run.period_s),
+        command_change_mps2=run.totals["command_variation_mps2"] / max(1.0, run.totals["commands"]),
+        loop_gain=_loop_gain(study, case, run), failure_learned_n=_failure_learned(study, case, run))
+    return RunResult(of, row, {ERROR: error_curve(run)} | more, found, late_errors(run))
 
 
 def late_errors(run: Run) -> tuple[float, float] | None:
@@ -153,10 +142,9 @@ def late_errors(run: Run) -> tuple[float, float] | None:
 def name_of(study: MaoStudy, of: RunCase) -> str:
     """A run in words."""
     tuning = _tuning(study, of)
-    words = (f"case {of.number}", law_words(study, of), tuning.title, study.change_title(of.change), None
-             if of.end_s is None else f"period {1e3 * tuning.period_s:g} ms, r_2 = {tuning.r_2_per_s:g}/s, until "
-             f"{of.end_s:g} s")
-    return ", ".join(filter(None, words))
+    return in_words(f"case {of.number}", law_words(study, of), tuning.title, study.change_title(of.change), None
+                    if of.end_s is None else f"period {1e3 * tuning.period_s:g} ms, r_2 = {tuning.r_2_per_s:g}/s, "
+                    f"until {of.end_s:g} s")
 
 
 def law_words(study: MaoStudy, of: RunCase) -> str:
@@ -186,17 +174,13 @@ def _failure_learned(study: MaoStudy, case: CaseData, run: Run) -> float | None:
 
 def _more_curves(study: MaoStudy, case: CaseData, run: Run) -> dict[str, Curve]:
     """Start, distance, command and, of laws that estimate failures, the force they take the failed motor to give."""
-    time = run.column("t_s")
-    first = time <= START_S
-    curves = {"start": thinned("start", time[first], run.position_error[first]),
-              "distance": thinned("distance", time, run.column("s_m")),
-              "desired": thinned("desired distance", time, run.column("s_desired_m")),
-              "command": thinned("command", time, run.column("u_mps2"))}
+    time, columns = run.column("t_s"), {"distance": "s_m", "desired": "s_desired_m", "command": "u_mps2"}
+    logged, first = {name: run.column(column) for name, column in columns.items()}, time <= START_S
     if case.law != "healthy":
         varpi = np.sin(study.law.omega_rad_s * time + study.law.phase_rad)
         estimate = study.train.motors * (run.column("xi_hat_0") + run.column("xi_hat_1") * varpi)
-        curves["failure"] = thinned("estimate", time, study.law.force_unit_n / KILONEWTON * estimate)
-    return curves
+        logged["failure"] = study.law.force_unit_n / KILONEWTON * estimate
+    return thinned_log(run, logged) | {"start": thinned("start", time[first], run.position_error[first])}
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,6 @@ from workbench.paper.reproduced import STATED
 from workbench.paper.results import ResultTable
 from workbench.paper.study_tables import ColumnOf, run_table, sensitivity_table
 
-from .outcomes import ended, summary
 from .runs import MaoResults, RunCase, RunResult, event_times
 
 FIGURES = {1: "Figure 1", 2: "Figure 2 (a)", 3: "Figure 2 (b)", 4: "Figure 2 (c)", 5: "Figure 2 (d)"}
@@ -22,7 +21,7 @@ def _printed(results: MaoResults) -> ResultTable:
     for number, case in enumerate(study.cases, start=1):
         said = "follows the desired curve" if number == 1 else "transients at changes and failures, then settles"
         rows.append((FIGURES.get(number, f"case {number}"), case.title, said, *(
-            summary(run) for tuning in study.tunings
+            run.summary for tuning in study.tunings
             for run in (results.printed(number, tuning), results.corrected(number, tuning)))))
     tunings = " ".join(f"{name}: {tuning.title}, r_1 = {tuning.r_1_per_s:g}/s, r_2 = {tuning.r_2_per_s:g}/s, "
                        f"{1e3 * tuning.period_s:g} ms." for name, tuning in study.tunings.items())
@@ -41,7 +40,7 @@ def _cases(results: MaoResults) -> Iterator[ResultTable]:
     for name, tuning in results.study.tunings.items():
         rows: list[tuple[Cell, ...]] = []
         for run in results.stated(name):
-            start, missing = (run.case.number, results.left(run), ended(run)), [None] * (len(times) - len(run.stretches))
+            start, missing = (run.case.number, results.left(run), run.ended), [None] * (len(times) - len(run.stretches))
             rows.append((*start, "largest", *(Scaled(one.largest_m) for one in run.stretches), *missing))
             if run.stretches:
                 rows.append((*start, "settled", *(Scaled(one.settled_m) for one in run.stretches), *missing))
@@ -66,7 +65,7 @@ def _sampling(results: MaoResults) -> ResultTable:
         (Column("period", "ms", 1e-3, None), lambda run: run.row["period_s"]),
         (Column("r_2", "1/s", digits=None), lambda run: run.case.r_2_per_s),
         (Column("period × √2 v²", decimals=2), lambda run: run.row["period_s"] * frequency),
-        ("diverged", lambda run: ended(run) or "none"),
+        ("diverged", lambda run: run.ended or "none"),
         (Column("m k_ν ρ̂ at the end", decimals=2), lambda run: None if run.failed else run.row["loop_gain"]),
         (Column("period × √(2 m k_ν ρ̂) v²", decimals=2), turned),
         ("largest error", lambda run: None if run.failed else Scaled(run.largest_m)))
@@ -105,7 +104,7 @@ def _commands(results: MaoResults) -> ResultTable:
 def _sensitivity(results: MaoResults) -> ResultTable:
     def compared(case: RunCase, run: RunResult) -> tuple[Cell, ...]:
         as_stated = results.runs.get(replace(case, change=STATED))
-        return case.number, results.left(run), summary(run), summary(as_stated) if as_stated else None
+        return case.number, results.left(run), run.summary, as_stated.summary if as_stated else None
 
     return sensitivity_table(
         "How much the assumed values matter", ("case", SIGNS_LEFT, "obtained", "without the change"),

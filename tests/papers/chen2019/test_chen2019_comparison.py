@@ -78,11 +78,16 @@ def test_stated_and_tuned_stand_side_by_side(short):
     everything = replace(COMPARISON, own_tasks=lambda study: ())
     (rows,) = run_stages([everything.stage(short)], 1, lambda *_: None)
     table = next(COMPARISON.tables(short, rows))
-    assert [row[0] for row in table.rows] == ["the law", "the law, tuned", "multi-car MPC", "multi-car MPC, tuned"]
+    assert [row[0] for row in table.rows] == [
+        "the law, trial 1", "the law", "the law, tuned, trial 1", "the law, tuned", "multi-car MPC",
+        "multi-car MPC, tuned"]
     energy = next(i for i, column in enumerate(table.columns) if column.title == "energy")
-    assert table.rows[0][energy] == rows["trip", "law", False]["energy_J"] == pytest.approx(
-        3.6e6 * table.values[0][energy])
-    assert all(cell == "no trial" or isinstance(cell, Phrase) for row in table.rows[:2] for cell in row[-2:])
+    assert table.rows[1][energy] == rows["trip", "law", False]["energy_J"] == pytest.approx(
+        3.6e6 * table.values[1][energy])
+    assert all(cell == "no trial" or isinstance(cell, Phrase) for row in table.rows[1:4:2] for cell in row[-2:])
+    errors = rows["trip", "law", False]["trials"]
+    assert table.rows[0][1:3] == pytest.approx((errors["position_rms"][0], errors["speed_rms"][0]))
+    assert "MPC counted" in table.note and "model unknown" in table.note
     assert len(list(COMPARISON.plots(short, rows))) == 2
     assert len(list(COMPARISON.findings(short, rows))) == 2
     own = stated_tasks(short)

@@ -35,16 +35,16 @@ MISTAKES = [
     ("train.traction_n", 40.0, "train.traction_n"),
     ("train.motor_pattern", "1x0", "train.motor_pattern"),
     ("train.cars", 1, "train.cars"),
-    ("mass_bounds.low_kg", 60000.0, "low_kg = 60000 is above high_kg = 50000: swap them"),
+    ("mass_bounds.low_kg", 60000.0, "low_kg = 60000 is above high_kg = 50000: lower it"),
     ("reference.acceleration_mps2", 0.05, "allow more trip_time_s"),
     ("reference.trip_time_s", 1000.0004, "not a whole number of samples"),
     ("sampling.log_every_s", 0.0015, "sampling.log_every_s = 0.0015 is not a whole number of samples"),
     ("sampling.period_s", 0.00001, "GB: sample more coarsely or shorten the trip"),
     ("sampling.acceleration", "guessed", "sampling.acceleration"),
-    ("trials.shown", [31], "shown names trial 31, but the last one is 30"),
+    ("trials.shown", [31], "shown = 31 is above count = 30: lower it"),
     ("line.slope_permille", 500.0, "line.slope_permille"),
     ("gains.c_3", 0.0, "gains.c_3"),
-    ("cost.end_s", 5000.0, "cost.end_s is beyond reference.trip_time_s"),
+    ("cost.end_s", 5000.0, "cost.end_s = 5000 is above reference.trip_time_s"),
 ]
 
 

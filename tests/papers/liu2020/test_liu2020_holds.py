@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from proofs.liu2020.steady_run import eigenvalues, implied, largest_step_s
-from proofs.liu2020.study.runs import RunCase, run_case
+from proofs.liu2020.study.runs import RMS, RunCase, run_case
 
 
 def outcome_of(study, column, law, disturbance="fast", leak=None):
     outcome = run_case(study, RunCase(column, f"liu2020.{law}", disturbance, leak_rate_per_s=leak))
     assert outcome.failed is None, outcome.failed
-    return outcome.numbers
+    return {name: outcome.row[in_row] for name, in_row in RMS.items()}
 
 
 def test_more_observer_gain_estimates_better_with_the_term_that_12_prints(short):
@@ -45,9 +45,9 @@ def test_learning_tracks_better_than_feedback_alone(short):
 def test_the_printed_leakage_diverges_and_the_corrected_one_does_not(short):
     for law in ("printed", "wrong_leakage"):
         outcome = run_case(short, RunCase(5, f"liu2020.{law}", "fast", leak_rate_per_s=1.0))
-        assert outcome.numbers == {}
+        assert {outcome.row[name] for name in (*RMS.values(), "energy_J", "energy_both_J", "reversals")} == {None}
         assert f"liu2020.{law} diverged at t = " in outcome.failed and " m, v = " in outcome.failed
-        assert 5 < outcome.end_s < 60
+        assert 5 < outcome.row["end_s"] < 60
     for law in ("corrected", "wrong_learning"):
         outcome_of(short, 5, law, leak=1.0)
 
@@ -88,7 +88,7 @@ def test_the_printed_tables_imply_one_acceleration_and_one_step(study):
 @pytest.mark.parametrize("column", [4, 5, 7, 8, 9])
 def test_table_3_comes_out_by_feedback_alone_with_ten_times_its_gain(study, column):
     number = [change.title for change in study.changes].index(study.runs.inferred_changes[0])
-    numbers = run_case(study, RunCase(column, "liu2020.feedback", "fast", number)).numbers
+    row = run_case(study, RunCase(column, "liu2020.feedback", "fast", number)).row
     for name, within in (("s_tilde_m", 0.1), ("v_tilde_mps", 0.1), ("position_m", 0.3)):
-        assert numbers[name] == pytest.approx(getattr(study.table_3, name)[column - 1], rel=within), name
-    assert numbers["speed_mps"] > 1.5 * study.table_3.speed_mps[column - 1]  # where it does not
+        assert row[RMS[name]] == pytest.approx(getattr(study.table_3, name)[column - 1], rel=within), name
+    assert row["speed_rms"] > 1.5 * study.table_3.speed_mps[column - 1]  # where it does not

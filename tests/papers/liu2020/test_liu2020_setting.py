@@ -124,7 +124,7 @@ def test_every_value_has_its_source(study):
     ('davis_unit = "N/kN, km/h"', 'davis_unit = "kN"', "train.davis_unit", "N/kN, km/h"),
     ("cruise_mps = 97.2222222222", "cruise_mps = 350.0", "reference.cruise_mps", "less than or equal to 150"),
     ("lowest_input_n = -2e6", "lowest_input_n = 2e6", "reference.lowest_input_n", "less than 0"),
-    ("length_m = 131000.0", "length_m = 120000.0", "line", "positions must increase"),
+    ("length_m = 131000.0", "length_m = 120000.0", "line", "from_m and to_m, up to length_m, must increase"),
     ("curve_radius_m = 200.0", "curve_radius_m = 0.2", "line.sections[1].curve_radius_m", "or equal to 50"),
     ("period_s = 0.001\n", "period_s = 1.0\n", "sampling.period_s", "less than or equal to 0.1"),
     ("k_1 = [0.048, ", "k_1 = [", "gains", "k_1 has 9 values"),

@@ -10,7 +10,7 @@ from mao2018_cases import CASES
 from proofs.mao2018 import plant
 from proofs.mao2018.simulation.trip import setting_of
 from proofs.mao2018.study import KIND
-from proofs.mao2018.study.comparison import DRIVERS, drive_case
+from proofs.mao2018.study.comparison import DRIVE, DRIVERS
 from proofs.mao2018.study.runs import RunCase, run_case, run_cases
 from workbench.paper.cells import numbers_in
 from workbench.paper.comparison import comparison_tasks
@@ -110,7 +110,7 @@ def test_offset_free_mpc_forgets_a_failed_motor_and_linear_mpc_does_not(study):
 
 
 def test_mpc_drives_a_heavier_train_than_it_knows(short):
-    driven = drive_case(short, "mpc_linear", 2, Factors(mass=1.1))
+    driven = DRIVE.run(short, "mpc_linear", "2", Factors(mass=1.1))
     setting = setting_of(short, short.cases[1], next(iter(short.tunings.values())))
     a, b, c = setting.changes[0, 1:4]
     of = known(short.mpc, setting.curve, setting.mass_kg, (a, b, c), setting.end_s)
