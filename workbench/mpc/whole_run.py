@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from workbench.compile import views
 from workbench.compile.kernel import function_source
 from workbench.compile.text import loop_text
-from workbench.files.regular import sha256_of
 from workbench.mpc import adaptive_kernel, whole_run_kernel
 from workbench.mpc.adaptive import AdaptiveMpc, TrainEstimator
 from workbench.mpc.controller import MpcController
@@ -210,8 +209,8 @@ def source(actuator: Actuator) -> tuple[str, ...]:
            "    _numbers[_at + 2 + min(_sample, _S - 1)] = 1e-9 * (nanoseconds_now(_which, _clock) - _started)",
            "    return _command", "", ""]
     domain = ["def domain_margin(_t, _p, _v, _x_d, _v_d, _a_d, _period, parameters):", "    return math.inf", ""]
-    # What is kept of the code is known by its text, in which the views' own does not stand.
-    imports = [f"# views.py: {sha256_of(views.__file__)}", "from numba import types",
+    # What is kept of the code is known by its text, in which that of the views does not stand.
+    imports = [f"# views.py: {views.DIGEST}", "from numba import types",
                f"from {views.__name__} import {', '.join(VIEWS.values())}",
                f"from {kernels(actuator).__name__} import {names}",
                "clock_gettime = types.ExternalFunction('clock_gettime', types.intc(types.intc, "
