@@ -6,12 +6,15 @@ import os
 import shutil
 import subprocess
 import sys
+import time
 
 import pytest
 from small_papers import IDS, TEXT, certificates, deciders_at_rest, document, proved, write_paper
 
+from workbench.files.regular import sha256_of
 from workbench.files.text import read_text
 from workbench.proof import cache as kept_module
+from workbench.proof import dependencies
 from workbench.proof.engine_digest import engine_digest
 
 DECIDED = set(IDS[:4])  # an axiom is decided by reading it
@@ -166,7 +169,7 @@ def test_the_digest_of_the_deciders_is_of_every_byte_and_of_the_libraries(tmp_pa
     digests.append(engine_digest(sources(tmp_path, one="x = 2")))
     digests.append(engine_digest(sources(tmp_path, one="", two="x = 2")))
     digests.append(engine_digest(sources(tmp_path, three="")))
-    monkeypatch.setattr("importlib.metadata.version", lambda name: "1000")
+    monkeypatch.setattr("workbench.proof.engine_digest._version", lambda name: "1000")
     digests.append(engine_digest(tmp_path))
     assert len(set(digests)) == len(digests)
     assert None not in digests
@@ -176,6 +179,24 @@ def test_deciders_that_change_under_a_running_process_have_no_digest(tmp_path):
     sources(tmp_path, one="")
     (tmp_path / "checker.py").write_text("# changed just now")
     assert engine_digest(tmp_path) is None
+
+
+def test_a_file_is_read_again_once_anything_says_that_it_is_another(tmp_path, monkeypatch):
+    read, path = [], tmp_path / "one.py"
+    monkeypatch.setattr(dependencies, "sha256_of", lambda path: read.append(path) or sha256_of(path))
+
+    def written(text, settled_ns):
+        monkeypatch.setattr(dependencies, "SETTLED_NS", settled_ns)
+        path.write_text(text)
+        os.utime(path, (1e9, 1e9))
+        time.sleep(0.05)  # longer than a tick of the clock of files
+        found = {dependencies.known_sha256(path) for _ in range(3)}
+        assert found == {hashlib.sha256(text.encode()).hexdigest()}
+        return len(read)
+
+    assert written("x = 1", 10**12) == 3  # written only just: the clock may not tell the next change
+    assert written("x = 2", 0) == 4
+    assert written("x = 3", 0) == 5  # as long as before, and as old by its date
 
 
 def test_a_proof_file_that_changes_while_it_is_decided_is_not_kept(tmp_path, cache):

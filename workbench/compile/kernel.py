@@ -19,6 +19,7 @@ from sympy.printing.pycode import PythonCodePrinter
 from workbench.compile.cases import numbers_of
 from workbench.compile.code_cache import imported_kernel
 from workbench.compile.literals import require_short
+from workbench.compile.parts import free_symbols
 from workbench.compile.text import module_text, shared_text
 from workbench.errors import CompileError
 from workbench.files.modules import OF_A_KERNEL
@@ -88,8 +89,9 @@ def _name(symbol: sp.Expr) -> str:
 def _require_known(exprs: Iterable[sp.Expr], known: Iterable[sp.Expr], where: str) -> None:
     allowed = {_name(s): s for s in known}
     for expr in exprs:
-        labels = {symbol.base.label for symbol in expr.free_symbols if isinstance(symbol, sp.Indexed)}
-        for symbol in sorted(expr.free_symbols - labels, key=str):
+        used = free_symbols(expr)
+        labels = {symbol.base.label for symbol in used if isinstance(symbol, sp.Indexed)}
+        for symbol in sorted(used - labels, key=str):
             if isinstance(symbol, sp.IndexedBase) or symbol in (neuron, neuron_count, cars):
                 continue
             if _name(symbol) not in allowed:

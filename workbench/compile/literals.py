@@ -7,6 +7,7 @@ from collections.abc import Iterable
 
 import sympy as sp
 
+from workbench.compile.parts import parts
 from workbench.errors import CompileError
 
 LARGEST = 2**64  # of whole numbers that compiled code knows
@@ -19,14 +20,14 @@ def require_short(exprs: Iterable[sp.Expr]) -> None:
     """CompileError where an expression has a whole number, or a fraction of such, that compiled code cannot hold, a
     power beyond LARGEST_POWER, a number that no float holds, or what is no real number."""
     for expr in exprs:
-        if expr.has(sp.I, sp.nan, sp.zoo):
+        found = parts(expr)
+        if not {sp.I, sp.nan, sp.zoo}.isdisjoint(found):
             raise CompileError(f"{str(expr)[:80]} is no real number: correct the expression")
-        for number in expr.atoms(sp.Rational):
-            if max(abs(int(number.p)), int(number.q)) >= LARGEST:
+        for part in found:
+            if isinstance(part, sp.Rational) and max(abs(int(part.p)), int(part.q)) >= LARGEST:
                 raise CompileError("a whole number, or one in a fraction, is beyond 64 bits: state it as a float")
-        for number in expr.atoms(sp.Float):
-            if not math.isfinite(float(number)) or (number != 0) != (float(number) != 0):
-                raise CompileError(f"{str(number)[:80]} is a number that no float holds: correct it")
-        for power in expr.atoms(sp.Pow):
-            if power.exp.is_number and abs(power.exp) > LARGEST_POWER and not power.base.is_number:
-                raise CompileError(f"{str(power)[:80]} has an exponent beyond {LARGEST_POWER}: correct it")
+            if isinstance(part, sp.Float) and (not math.isfinite(float(part)) or (part != 0) != (float(part) != 0)):
+                raise CompileError(f"{str(part)[:80]} is a number that no float holds: correct it")
+            if (isinstance(part, sp.Pow) and part.exp.is_number and abs(part.exp) > LARGEST_POWER
+                    and not part.base.is_number):
+                raise CompileError(f"{str(part)[:80]} has an exponent beyond {LARGEST_POWER}: correct it")

@@ -15,6 +15,7 @@ from typing import Any
 from numba.core.caching import IndexDataCacheFile
 
 from workbench.compile.typed_once import typed_once
+from workbench.compile.without_collection import without_collection
 from workbench.errors import CompileError
 from workbench.files.cache_folder import CACHE_VARIABLE, cache_folder, note, temporary_folder
 from workbench.files.regular import contents
@@ -44,7 +45,7 @@ def seal(function: Any, folder: Path, name: str, stamp: Any) -> None:
     def compile_in_turn(*signature: Any) -> Any:
         by_numba = type(function).compile
         try:
-            with typed_once():
+            with typed_once(), without_collection():
                 return by_numba(function, *signature)
         finally:
             file.done()

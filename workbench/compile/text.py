@@ -15,9 +15,10 @@ from workbench.errors import CompileError
 
 MARKER, SHARED = "# --- kernel ---", "# --- shared ---"
 # By numpy's error model a division by zero gives inf or nan, which the loop reports as a diverged law.
-CALLED = "@njit(cache=True, error_model='numpy')"
+# Uses of arrays are counted, whoever calls: numba would else do as the caller does that comes first.
+CALLED = "@njit(cache=True, error_model='numpy', _nrt=True)"
 # Called by compiled functions alone: what Python would need to call it is a third of what a small function costs.
-WITHIN = "@njit(cache=True, error_model='numpy', no_cpython_wrapper=True, no_cfunc_wrapper=True)"
+WITHIN = "@njit(cache=True, error_model='numpy', no_cpython_wrapper=True, no_cfunc_wrapper=True, _nrt=True)"
 # Arrays as plain memory, whose uses are not counted: counting costs more than a Runge-Kutta stage.
 CALLED_UNCOUNTED = "@njit(cache=True, error_model='numpy', no_cfunc_wrapper=True, _nrt=False)"
 WITHIN_UNCOUNTED = "@njit(cache=True, error_model='numpy', no_cpython_wrapper=True, no_cfunc_wrapper=True, _nrt=False)"

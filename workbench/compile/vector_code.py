@@ -13,6 +13,7 @@ from sympy.printing.codeprinter import PrintMethodNotImplementedError
 from sympy.printing.pycode import PythonCodePrinter
 
 from workbench.compile.literals import require_short
+from workbench.compile.parts import free_symbols, parts
 from workbench.errors import CompileError
 from workbench.model.law import time
 
@@ -45,9 +46,9 @@ def _body(exprs: Sequence[sp.Expr], arrays: Arrays, scalars: Mapping[str, sp.Sym
     """Lines that load what is used and compute what is shared, and the text of each expression."""
     names = _names(arrays, scalars)
     for expr in exprs:  # before symbols are renamed, so that what is told is what was stated
-        if expr.has(*UNDONE):
+        if any(isinstance(part, UNDONE) for part in parts(expr)):
             raise CompileError(f"{expr}: sums, products, integrals and derivatives cannot be compiled: carry them out")
-    used = {symbol for expr in exprs for symbol in expr.free_symbols}
+    used = {symbol for expr in exprs for symbol in free_symbols(expr)}
     lost = sorted(map(str, used - set(names)))
     if lost:
         raise CompileError(f"symbol '{lost[0]}' has no value there: make it a state, an input or a parameter")

@@ -8,6 +8,7 @@ import os
 import sys
 import time
 from difflib import get_close_matches
+from functools import cache
 from itertools import islice
 from pathlib import Path
 
@@ -49,18 +50,28 @@ def is_source(path: str) -> bool:
 
 def digest_read(path: str | Path, since_ns: int = 0) -> str | None:
     """The sha256 of a file's bytes as this process has read them last; None where it has not since that instant."""
-    digest, read_ns = _digests.get(str(Path(path).absolute()), (None, 0))
+    digest, read_ns = _digests.get(_absolute(path), (None, 0))
     return digest if read_ns >= since_ns else None
 
 
 def written_since_read(path: str | Path) -> bool:
     """Whether a file that this process has read has been written to since, or has gone."""
-    _, read_ns = _digests.get(str(Path(path).absolute()), ("", 0))
+    _, read_ns = _digests.get(_absolute(path), ("", 0))
     try:
-        found = Path(path).stat()
+        found = os.stat(path)  # noqa: PTH116 - a Path for each of hundreds takes longer
     except (OSError, ValueError):  # gone, or a name that no file can bear
         return bool(read_ns)
     return bool(read_ns) and max(found.st_mtime_ns, found.st_ctime_ns) > read_ns
+
+
+def _absolute(path: str | Path) -> str:
+    text = os.fspath(path)
+    return _spelled(text) if os.path.isabs(text) else str(Path(text).absolute())  # noqa: PTH117 - as above
+
+
+@cache
+def _spelled(absolute: str) -> str:
+    return str(Path(absolute))
 
 
 def named_by(where: str) -> str:

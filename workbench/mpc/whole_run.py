@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from workbench.compile import views
 from workbench.compile.kernel import function_source
 from workbench.compile.text import loop_text
 from workbench.mpc import adaptive_kernel, whole_run_kernel
@@ -57,8 +58,8 @@ BLOCKS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     ("widest", "", ("5",)), ("learning", "", ("3", "5")), ("acceleration", "", ("A",)), ("model", "", ("5",)),
     ("own_rest", "", ("5",)), ("own_limits", "", ("4",)), ("seen", "", ("A", "6")),
 )
-# By kind and dimensions: the kernel's function that finds a block among all numbers.
-VIEWS = {("", 1): "row", ("", 2): "table", ("", 3): "cube", (WHOLE, 1): "whole_row", (WHOLE, 2): "whole_table"}
+# By kind: what finds a block among all numbers.
+VIEWS = {"": "floats_at", WHOLE: "integers_at"}
 COUNTED = ("qp", "qp_failed", "unconverged", "shifted_plan", "lqr", "feedforward", "bad_measurement")
 """Of `fallback.COUNTERS`, in the order of the kernel; without a deadline nothing is late."""
 
@@ -198,16 +199,18 @@ def source(actuator: Actuator) -> tuple[str, ...]:
     lines += ["    _numbers = neuron_data[0]", "    _at = 0"]
     for name, kind, shape in BLOCKS:
         sizes = [text if text.isdigit() else f"(_{text})" for text in shape]
-        lines += [f"    {name} = {VIEWS[kind, len(shape)]}(_numbers, _at, {', '.join(sizes)})",
+        lines += [f"    {name} = {VIEWS[kind]}(_numbers, _at, ({', '.join(sizes)},))",
                   f"    _at += {' * '.join(sizes)}"]
     law = ["def control_step(_t, _p, _v, _x_d, _v_d, _a_d, _period, parameters, scalars, neurons, neuron_data):",
            *lines,
-           "    _clock = whole_row(_numbers, _at, 2)", "    _sample = int(round(_t / _period))",
-           f"    _which = int(parameters[{len(DIMENSIONS)}])", "    _started = seconds_now(_which, _clock)",
+           "    _clock = integers_at(_numbers, _at, (2,))", "    _sample = int(round(_t / _period))",
+           f"    _which = int(parameters[{len(DIMENSIONS)}])", "    _started = nanoseconds_now(_which, _clock)",
            f"    _command = command_of(_sample, _p, _v, {', '.join(name for name, _, _ in BLOCKS)})",
-           "    _numbers[_at + 2 + min(_sample, _S - 1)] = seconds_now(_which, _clock) - _started",
+           "    _numbers[_at + 2 + min(_sample, _S - 1)] = 1e-9 * (nanoseconds_now(_which, _clock) - _started)",
            "    return _command", "", ""]
-    imports = ["from numba import types", "from numpy import int64",
+    # What is kept of the code is known by its text, in which that of the views does not stand.
+    imports = [f"# views.py: {views.DIGEST}", "from numba import types",
+               f"from {views.__name__} import {', '.join(VIEWS.values())}",
                f"from {kernels(actuator).__name__} import {names}",
                "clock_gettime = types.ExternalFunction('clock_gettime', types.intc(types.intc, "
                "types.CPointer(types.int64)))", "", ""]

@@ -20,35 +20,10 @@ own_rest, own_limits and seen are those of the train as it is estimated, acceler
 # --- kernel ---
 
 
-def row(numbers, at, length):
-    """Numbers from a place on. Each kind of view has its function, since numba takes long over every slice."""
-    return numbers[at : at + length]
-
-
-def table(numbers, at, rows, columns):
-    """The same in rows."""
-    return numbers[at : at + rows * columns].reshape((rows, columns))
-
-
-def cube(numbers, at, layers, rows, columns):
-    """The same in layers."""
-    return numbers[at : at + layers * rows * columns].reshape((layers, rows, columns))
-
-
-def whole_row(numbers, at, length):
-    """Whole numbers, which take as much room."""
-    return numbers[at : at + length].view(int64)
-
-
-def whole_table(numbers, at, rows, columns):
-    """The same in rows."""
-    return numbers[at : at + rows * columns].view(int64).reshape((rows, columns))
-
-
-def seconds_now(which, clock):
-    """Of the clock that Python's perf_counter reads."""
+def nanoseconds_now(which, clock):
+    """Of the clock that Python's perf_counter reads, whole: in seconds the digits of a short step would be lost."""
     clock_gettime(which, clock.ctypes)
-    return clock[0] + 1e-9 * clock[1]
+    return clock[0] * 1_000_000_000 + clock[1]
 
 
 def corrected(v, state, own):

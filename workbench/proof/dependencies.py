@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import os
 import site
+import stat
 import sys
 import sysconfig
 import time
@@ -23,7 +24,10 @@ STARTED_NS = time.time_ns()
 PACKAGE = Path(__file__).parents[1]
 BYTECODE, NO_FILES = ".pyc", ("/proc/", "/sys/", "/dev/")
 
+SETTLED_NS = 2_000_000_000  # no file system's clock is coarser
+
 _data: set[str] = set()
+_known: dict[str, tuple[tuple[int, ...], str]] = {}
 _sources: list[set[str]] = []
 
 
@@ -87,19 +91,35 @@ def _installed() -> tuple[str, ...]:
 def digest(path: str | Path) -> str | None:
     """sha256 of a file's bytes, of a folder that of the names of its Python files; None where there is nothing that can
     be read, which is something to know too."""
-    file = Path(path)
     try:
-        if file.is_dir():
-            names = [found.relative_to(file).as_posix() for found in python_files(file)]
+        mode = os.stat(path).st_mode  # noqa: PTH116 - as below
+        if stat.S_ISDIR(mode):
+            folder = Path(path)
+            names = [found.relative_to(folder).as_posix() for found in python_files(folder)]
             return hashlib.sha256(os.fsencode("\n".join(names))).hexdigest()
-        return sha256_of(file) if file.is_file() else None
-    except OSError:
+        return known_sha256(path) if stat.S_ISREG(mode) else None
+    except (OSError, ValueError):  # gone, or a name that no file can bear
         return None
+
+
+def known_sha256(path: str | Path) -> str:
+    """The sha256 of a regular file's bytes, not read again while all that the system says of it is the same.
+
+    What was written only just is read each time: clocks of file systems are coarse. Raises as `contents`.
+    """
+    found = os.stat(path)  # noqa: PTH116 - a Path for each of hundreds takes longer
+    of = found.st_mtime_ns, found.st_ctime_ns, found.st_size, found.st_ino, found.st_dev
+    before, digest = _known.get(str(path), ((), ""))
+    if before != of:
+        digest = sha256_of(path)
+        if max(of[:2]) < time.time_ns() - SETTLED_NS:
+            _known[str(path)] = of, digest
+    return digest
 
 
 def changed_since(path: str | Path, instant_ns: int) -> bool:
     """Whether a file was written to after an instant, or has gone; a date in the future says nothing of that."""
     try:
-        return instant_ns < Path(path).stat().st_mtime_ns <= time.time_ns()
-    except OSError:
+        return instant_ns < os.stat(path).st_mtime_ns <= time.time_ns()  # noqa: PTH116 - as above
+    except (OSError, ValueError):
         return True

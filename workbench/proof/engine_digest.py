@@ -5,11 +5,12 @@ from __future__ import annotations
 import hashlib
 import os
 import sys
+from collections.abc import Iterator
+from functools import cache
 from importlib import metadata
 from pathlib import Path
 
-from workbench.files.regular import sha256_of
-from workbench.proof.dependencies import STARTED_NS, changed_since
+from workbench.proof.dependencies import STARTED_NS, changed_since, known_sha256
 
 SOURCES = Path(__file__).parent
 LIBRARIES = ("sympy", "mpmath", "python-flint", "numpy", "scipy", "cvxpy", "clarabel", "scs", "osqp", "highspy", "lark")
@@ -21,11 +22,10 @@ def engine_digest(sources: Path = SOURCES) -> str | None:
     None when a file has changed since this process started, because then nobody knows which version runs here.
     """
     total = hashlib.sha256()
-    for path in sorted(p for p in sources.rglob("*") if p.is_file() and "__pycache__" not in p.parts):
+    for path in sorted(_files(sources)):
         if changed_since(path, STARTED_NS):
             return None
-        body = sha256_of(path)
-        total.update(f"{path.relative_to(sources).as_posix()} {body}\n".encode())
+        total.update(f"{path[len(str(sources)) + 1:].replace(os.sep, '/')} {known_sha256(path)}\n".encode())
     for name in LIBRARIES:
         total.update(f"{name} {_version(name)}\n".encode())
     python = f"{sys.implementation.name} {sys.version_info.major}.{sys.version_info.minor}"
@@ -33,6 +33,13 @@ def engine_digest(sources: Path = SOURCES) -> str | None:
     return total.hexdigest()
 
 
+def _files(sources: Path) -> Iterator[str]:
+    for folder, within, names in os.walk(sources):
+        within[:] = [name for name in within if name != "__pycache__"]
+        yield from (path for name in names if os.path.isfile(path := f"{folder}{os.sep}{name}"))  # noqa: PTH113
+
+
+@cache  # what was imported stays what it is
 def _version(name: str) -> str:
     try:
         return metadata.version(name)

@@ -9,7 +9,7 @@ below the marker is joined to them.
 
 import ctypes
 
-ENTRIES = ()
+ENTRIES, MAKES_NO_ARRAY = (), True
 NUMBERS, SIZE = ctypes.POINTER(ctypes.c_double), ctypes.c_ssize_t
 # Returns whether the state lies in the law's domain; arguments as of `answer`.
 ANSWER = ctypes.CFUNCTYPE(SIZE, *[ctypes.c_double] * 7, *[NUMBERS] * 5, *[SIZE] * 6)

@@ -8,6 +8,7 @@ from typing import Any
 
 import sympy as sp
 
+from workbench.compile.parts import free_symbols
 from workbench.model.law import LawState, period
 from workbench.systems.plant import Plant, checked_value
 from workbench.systems.symbols import (
@@ -146,7 +147,7 @@ class StateLaw:
                   **{f"state '{s}'": e for s, e in zip(self.state_symbols, self.next_values, strict=True)},
                   **{f"domain expression {e}": e for e in self.domain}}
         for what, expr in stated.items():
-            for symbol in sorted(expr.free_symbols - set(known), key=str):
+            for symbol in sorted(free_symbols(expr) - set(known), key=str):
                 if symbol in plant.parameter_symbols:
                     raise ValueError(f"{where}: {what} uses '{symbol}', a parameter of plant '{plant.id}': name it "
                                      "among the law's parameters too, whose value is what the law believes")

@@ -11,6 +11,7 @@ import numpy as np
 import sympy as sp
 
 from workbench.compile.cases import completed
+from workbench.compile.parts import free_symbols
 from workbench.model.law import period, time
 
 Limits = tuple[float, float]
@@ -145,7 +146,7 @@ def require_known(expressions: Mapping[str, sp.Expr], known: Iterable[sp.Symbol]
     allowed = set(known) | set(clock)
     names = {str(symbol): symbol for symbol in allowed}
     for what, expr in expressions.items():
-        for symbol in sorted(expr.free_symbols - allowed, key=str):
+        for symbol in sorted(free_symbols(expr) - allowed, key=str):
             name = str(symbol)
             if symbol == period:
                 hint = "is the sampling period, which a law alone has: make it a parameter"
