@@ -13,7 +13,13 @@ from workbench.report.typography import set_words
     # Names, dates and differences are as they are.
     ("ISO 2631-1, EN 14033-1:2017, 2026-11-28, x-1, mpc-2", "ISO 2631-1, EN 14033-1:2017, 2026-11-28, x-1, mpc-2"),
     ("first-order, offset-free", "first-order, offset-free"), ("a < b & c", "a &lt; b &amp; c"),
-    ("all with --full.", 'all with <span class="unbroken">--full</span>.')])
+    ("all with --full.", 'all with <span class="unbroken">--full</span>.'),
+    ("by 10 %, 1\u202f234.5 mm/s or -2 m/s³.", 'by <span class="unbroken">10 %</span>, <span class="unbroken">'
+     '1\u202f234.5 mm/s</span> or −<span class="unbroken">2 m/s³</span>.'),
+    ("5.19\u202f×\u202f10⁻³ m; 1 to 3 min", '<span class="unbroken">5.19\u202f×\u202f10⁻³ m</span>; 1 to '
+     '<span class="unbroken">3 min</span>'),
+    # Words that begin as units do, and letters.
+    ("10 more, 2 trains, k_1 2 x, 3 s_d, 5 N/kg/s", "10 more, 2 trains, k_1 2 x, 3 s_d, 5 N/kg/s")])
 def test_signs_dashes_and_options(typed, printed):
     assert set_words(typed) == printed == in_words(typed, letters=False)
 
