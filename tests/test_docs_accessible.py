@@ -5,7 +5,7 @@ from pathlib import Path
 
 sys.path.append(str(Path(__file__).parent.parent / "docs"))
 
-from accessible import accessible, accessible_tree, with_names_of_asides
+from accessible import accessible, accessible_page, accessible_tree
 
 BODY = """<h1>Files<a class="headerlink" href="#files">#</a></h1><pre>text</pre>
 <div class="table-wrapper colwidths-auto docutils container"><table></table></div>
@@ -24,6 +24,16 @@ def test_what_scrolls_is_a_region_with_a_name_of_its_own():
 def test_captions_have_a_level_and_asides_a_name():
     assert accessible_tree('<p class="caption" role="heading"><span>') == (
         '<p class="caption" role="heading" aria-level="2"><span>')
-    page = with_names_of_asides('<aside class="sidebar-drawer"></aside><aside class="toc-drawer no-toc"></aside>')
+    page = accessible_page('<aside class="sidebar-drawer"></aside><aside class="toc-drawer no-toc"></aside>')
     assert page == ('<aside aria-label="All pages" class="sidebar-drawer"></aside>'
                     '<aside aria-label="On this page" class="toc-drawer no-toc"></aside>')
+
+
+def test_a_long_signature_is_no_list_and_the_search_has_a_heading():
+    signature = '<dt id="f">f(<dl>\n<dd><em>a</em>: <a href="#b">B</a>,</dd><dd><em>c</em>,</dd></dl>\n)</dt>'
+    fields = '<dl class="field"><dt>Raises</dt><dd>ValueError</dd></dl>'
+    made = accessible(signature + fields)
+    assert made == ('<dt id="f">f(<div><div class="parameter"><em>a</em>: <a href="#b">B</a>,</div>'
+                    f'<div class="parameter"><em>c</em>,</div></div>\n)</dt>{fields}')
+    assert accessible_page('<main><div id="search-results"></div>') == (
+        '<main><h1>Search</h1>\n<div id="search-results"></div>')
