@@ -56,7 +56,8 @@ def main() -> None:
              "values of a study are drawn at once, each from its range, and the number that carries the paper's "
              "headline is computed anew: `workbench sweep proofs/PAPER --sensitivity` runs one of these sweeps, "
              "`benchmarks/assumption_ranges.py` all of them, and writes this page. Assumed values and the number "
-             "that is looked at are named by their keys, as in the paper's `study.toml`, where each has its reason.", ""]
+             "that is looked at are named by their keys, as in the paper's `study.toml`, where each has its "
+             "reason.", ""]
     for loaded in stated():
         if wanted and loaded.record.name not in wanted:
             left.append(loaded.record.name)
