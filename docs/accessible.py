@@ -1,10 +1,12 @@
 """What readers without a mouse or a screen need of the pages: names of what scrolls, levels of headings, lists that
-are lists."""
+are lists, numbers with their units."""
 
 from __future__ import annotations
 
 import html
 import re
+
+from workbench.report.typography import quantities_in_one_piece
 
 # Sphinx marks captions of lists of pages as headings without a level.
 _CAPTION = re.compile(r'(<p class="caption" role="heading")>')
@@ -12,6 +14,8 @@ _SCROLLS = re.compile(r'<div class="(?:table-wrapper|math-wrapper|math)(?: [^"]*
 _OUTPUT = re.compile(r"<pre(?=>)")
 _HEADING = re.compile(r"<h[1-6][^>]*>(.*?)<a class=\"headerlink\"|<h[1-6][^>]*>(.*?)</h[1-6]>", re.DOTALL)
 _TAG = re.compile(r"<[^>]*>")
+# Tags, and what is no text to be set.
+_MARKUP = re.compile(r"(<(?:pre|code|script|math|svg)\b.*?</(?:pre|code|script|math|svg)>|<[^>]*>)", re.DOTALL)
 # Sphinx breaks a long signature into a list of definitions without a term.
 _PARAMETERS = re.compile(r"<dl>\s*((?:<dd>(?:(?!</?d[ld]>).)*</dd>\s*)+)</dl>", re.DOTALL)
 _RESULTS = '<div id="search-results">'
@@ -33,6 +37,11 @@ def accessible_page(page: str) -> str:
     return page
 
 
+def with_units(body: str) -> str:
+    """A page's body in which no line breaks between a number and its unit; code is as it is."""
+    return "".join(piece if i % 2 else quantities_in_one_piece(piece) for i, piece in enumerate(_MARKUP.split(body)))
+
+
 def accessible(body: str) -> str:
     """A page's body in which what scrolls sideways is reached by the tabulator key; tables and formulas are regions,
     named by what they are, their number on the page and the heading above them."""
@@ -47,7 +56,7 @@ def accessible(body: str) -> str:
         label = f"{kind} {counted[kind]}{f': {above}' if above else ''}"
         return f'{found[0]} tabindex="0" role="region" aria-label="{html.escape(label)}"'
 
-    body = _PARAMETERS.sub(_as_lines, body)
+    body = _PARAMETERS.sub(_as_lines, with_units(body))
     return accessible_tree(_OUTPUT.sub('<pre tabindex="0"', _SCROLLS.sub(named, body)))
 
 

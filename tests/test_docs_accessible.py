@@ -37,3 +37,9 @@ def test_a_long_signature_is_no_list_and_the_search_has_a_heading():
                     f'<div class="parameter"><em>c</em>,</div></div>\n)</dt>{fields}')
     assert accessible_page('<main><div id="search-results"></div>') == (
         '<main><h1>Search</h1>\n<div id="search-results"></div>')
+
+
+def test_numbers_stay_with_their_units_but_in_code():
+    made = accessible('<p title="5 mm">\u00b110 % of <code>2 m</code> <b>279 \u00b5m</b></p><pre>3 s</pre>')
+    assert made == ('<p title="5 mm">\u00b1<span class="unbroken">10 %</span> of <code>2 m</code> '
+                    '<b><span class="unbroken">279 \u00b5m</span></b></p><pre tabindex="0">3 s</pre>')

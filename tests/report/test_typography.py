@@ -3,7 +3,7 @@
 import pytest
 
 from workbench.report.claims import by_section, claim_views, in_words
-from workbench.report.typography import set_words
+from workbench.report.typography import set_command, set_words
 
 
 @pytest.mark.parametrize(("typed", "printed"), [
@@ -22,6 +22,11 @@ from workbench.report.typography import set_words
     ("10 more, 2 trains, k_1 2 x, 3 s_d, 5 N/kg/s", "10 more, 2 trains, k_1 2 x, 3 s_d, 5 N/kg/s")])
 def test_signs_dashes_and_options(typed, printed):
     assert set_words(typed) == printed == in_words(typed, letters=False)
+
+
+def test_a_command_is_itself_and_its_options_are_not_broken():
+    assert set_command("workbench report a-5 --out 'b & 3 m' -1") == (
+        'workbench report a-5 <span class="unbroken">--out</span> &#39;b &amp; 3 m&#39; -1')
 
 
 def test_a_formula_keeps_its_own_signs():

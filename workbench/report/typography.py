@@ -23,7 +23,17 @@ def set_words(text: str) -> Markup:
     text = _RANGE.sub(lambda ends: f"{ends[1]}–{ends[2]}" if int(ends[1]) < int(ends[2]) else ends[0], text)
     text = _LINES.sub(r"\1–", text)
     text = str(escape(_MINUS.sub("−", text)))
-    return Markup(_OPTION.sub(_in_one_piece, _QUANTITY.sub(_in_one_piece, text)))
+    return Markup(_OPTION.sub(_in_one_piece, quantities_in_one_piece(text)))
+
+
+def set_command(text: str) -> Markup:
+    """A line for a terminal as HTML, letter by letter, in which no option is broken behind its dashes."""
+    return Markup(_OPTION.sub(_in_one_piece, str(escape(text))))
+
+
+def quantities_in_one_piece(text: str) -> str:
+    """Words of HTML, without its tags, in which numbers stay with their units."""
+    return _QUANTITY.sub(_in_one_piece, text)
 
 
 def _in_one_piece(found: re.Match[str]) -> str:
