@@ -11,7 +11,7 @@ from workbench.report.typography import quantities_in_one_piece
 # Sphinx marks captions of lists of pages as headings without a level.
 _CAPTION = re.compile(r'(<p class="caption" role="heading")>')
 _SCROLLS = re.compile(r'<div class="(?:table-wrapper|math-wrapper|math)(?: [^"]*)?"(?=>)')
-_OUTPUT = re.compile(r"<pre(?=>)")
+_OUTPUT = re.compile(r"<(?:pre|table)(?=>)")  # tables of outputs have no class
 _HEADING = re.compile(r"<h[1-6][^>]*>(.*?)<a class=\"headerlink\"|<h[1-6][^>]*>(.*?)</h[1-6]>", re.DOTALL)
 _TAG = re.compile(r"<[^>]*>")
 # Tags, and what is no text to be set.
@@ -57,7 +57,7 @@ def accessible(body: str) -> str:
         return f'{found[0]} tabindex="0" role="region" aria-label="{html.escape(label)}"'
 
     body = _PARAMETERS.sub(_as_lines, with_units(body))
-    return accessible_tree(_OUTPUT.sub('<pre tabindex="0"', _SCROLLS.sub(named, body)))
+    return accessible_tree(_OUTPUT.sub(r'\g<0> tabindex="0"', _SCROLLS.sub(named, body)))
 
 
 def _as_lines(signature: re.Match[str]) -> str:

@@ -8,17 +8,19 @@ sys.path.append(str(Path(__file__).parent.parent / "docs"))
 from accessible import accessible, accessible_page, accessible_tree
 
 BODY = """<h1>Files<a class="headerlink" href="#files">#</a></h1><pre>text</pre>
-<div class="table-wrapper colwidths-auto docutils container"><table></table></div>
+<div class="table-wrapper colwidths-auto docutils container"><table class="docutils"></table></div>
 <h2>Keys &amp; <code>values</code></h2><div class="math"><math></math></div>
-<div class="table-wrapper docutils container"><table></table></div><div class="mathematics"></div>"""
+<div class="table-wrapper docutils container"><table class="docutils"></table></div><div class="mathematics"></div>
+<table><tr></tr></table>"""
 
 
 def test_what_scrolls_is_a_region_with_a_name_of_its_own():
     made = accessible(BODY)
     region = 'tabindex="0" role="region" aria-label='
-    assert f'container" {region}"Table 1: Files"><table>' in made and f'{region}"Table 2: Keys &amp; values"' in made
+    assert f'container" {region}"Table 1: Files"><table class="docutils">' in made
+    assert f'{region}"Table 2: Keys &amp; values"' in made
     assert f'<div class="math" {region}"Formula 1: Keys &amp; values">' in made
-    assert '<pre tabindex="0">text' in made and made.count("region") == 3
+    assert '<pre tabindex="0">text' in made and '<table tabindex="0"><tr>' in made and made.count("region") == 3
 
 
 def test_captions_have_a_level_and_asides_a_name():
