@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -30,13 +31,20 @@ def stated() -> Iterator[Loaded]:
 def section(loaded: Loaded, found: Found) -> Iterator[str]:
     """What a paper's sweep says."""
     table, source = found.stated, found.stated.source
-    yield from (f"## {loaded.record.name}: {table.metric}", "")
+    yield from (f"## {loaded.record.name}", "")
     told = (table.case and source.get("case"), table.controller and source.get("controller"), source.get("metric"),
             source.get("failed"), source.get("ranges"))
     words = "; ".join(text.partition(": ")[2] for text in told if text)
     yield from (f"{words[0].upper()}{words[1:]}.", "")
-    yield from (*(f"- {line}" for line in sensitivity_lines(found)), "")
-    yield from shown(sensitivity_table(found))
+    keys = [table.metric, *table.ranges]
+    yield from (*(f"- {_as_code(line, keys)}" for line in sensitivity_lines(found)), "")
+    for line in shown(sensitivity_table(found)):
+        yield re.sub(r"^\| ([\w.<>]+\.[\w.<>]+)", lambda key: f"| `{key[1].replace('<wbr>', '')}`", line)
+
+
+def _as_code(line: str, keys: list[str]) -> str:
+    """A sentence whose keys of the study's file are code."""
+    return re.sub(rf"(?<![\w.])(?:{'|'.join(map(re.escape, keys))})(?![\w.]*\w)", r"`\g<0>`", line)
 
 
 def main() -> None:
@@ -47,7 +55,9 @@ def main() -> None:
              "A paper that does not print a gain, a curve or a step leaves a reader to assume it. Here all assumed "
              "values of a study are drawn at once, each from its range, and the number that carries the paper's "
              "headline is computed anew: `workbench sweep proofs/PAPER --sensitivity` runs one of these sweeps, "
-             "`benchmarks/assumption_ranges.py` all of them, and writes this page.", ""]
+             "`benchmarks/assumption_ranges.py` all of them, and writes this page. Assumed values and the number "
+             "that is looked at are named by their keys, as in the paper's `study.toml`, where each has its "
+             "reason.", ""]
     for loaded in stated():
         if wanted and loaded.record.name not in wanted:
             left.append(loaded.record.name)

@@ -28,7 +28,7 @@ os.environ["TTY_COMPATIBLE"] = "0"  # no colours and no progress bars in outputs
 
 import generated_pages
 import shell_cells
-from accessible import accessible, accessible_tree, with_names_of_asides
+from accessible import accessible, accessible_page, accessible_tree
 
 import workbench
 from workbench.report.formulas import formula
@@ -83,7 +83,7 @@ def setup(app: Any) -> None:
     app.connect("source-read", _named_after_its_paper)
     app.connect("missing-reference", _public_name)
     app.connect("html-page-context", _accessible, priority=900)  # after the theme has made its list of pages
-    app.connect("build-finished", _name_asides)
+    app.connect("build-finished", _whole_pages)
     app.connect("build-finished", _nothing_from_elsewhere)
 
 
@@ -99,9 +99,9 @@ def _accessible(_app: Any, _name: str, _template: str, context: dict[str, Any], 
         context["furo_navigation_tree"] = accessible_tree(context["furo_navigation_tree"])
 
 
-def _name_asides(app: Any, trouble: Exception | None) -> None:
+def _whole_pages(app: Any, trouble: Exception | None) -> None:
     for path in sorted(Path(app.outdir).rglob("*.html")) if trouble is None else ():
-        path.write_text(with_names_of_asides(path.read_text(encoding="utf-8")), encoding="utf-8")
+        path.write_text(accessible_page(path.read_text(encoding="utf-8")), encoding="utf-8")
 
 
 def _inline(self: Any, node: nodes.math) -> None:

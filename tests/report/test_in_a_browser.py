@@ -8,6 +8,8 @@ from short_sweep import write_scenario
 
 from workbench.paper.results import ResultTable, StudyResult
 from workbench.report.charts.files import write_curves
+from workbench.report.errata.blocks import Code, Formula, Heading, Item, Items, Paragraph
+from workbench.report.errata.page import html_document
 from workbench.report.page import ReportContent, build_page, scenario_charts
 from workbench.trains.scenario import load_scenario
 
@@ -43,8 +45,9 @@ def address(tmp_path_factory):
     folder = tmp_path_factory.mktemp("page")
     gains = ResultTable("Conditions", "paper", ("gains", "condition", r"$\dot V$"),
                         (("stated", "k < 2", "1"), ("", "k < 3", "2"), (r"$\hat k$", "", "3")))
+    many = ResultTable("Rows", "paper", ("row",), tuple((row,) for row in "abcdefghijklmn"))
     content = ReportContent(scenario=load_scenario(write_scenario(folder)), claims=CLAIMS,
-                            gains=StudyResult((), (gains,), (), ()),
+                            gains=StudyResult((), (gains, many), (), ()),
                             commands=(f"workbench report {'/a-long-folder' * 9} --out out",))
     (folder / "report.html").write_text(build_page(content), encoding="utf-8")
     write_curves(list(scenario_charts(content).values()), folder)
@@ -190,6 +193,21 @@ def test_in_print_the_drawn_figures_stand(view):
     view.emulate_media(media="screen", color_scheme="light")
 
 
+def test_what_is_printed_is_findings_and_tables_and_evidence_where_it_is_open(view):
+    folded = "found => found.map(fold => [fold.closest('#graph') ? 'graph' : fold.className, fold.open])"
+    view.eval_on_selector_all("details", "found => found.forEach(fold => { fold.open = false; })")
+    view.eval_on_selector_all(".paper-section", "found => { found[1].open = true; }")
+    before = view.eval_on_selector_all("details", folded)
+    view.evaluate("dispatchEvent(new Event('beforeprint'))")
+    printed = view.eval_on_selector_all("details", folded)
+    kinds = ("group", "more", "long")
+    assert any(name in kinds for name, _ in printed)
+    assert all(is_open == (name in kinds or was == ["paper-section", True])
+               for (name, is_open), was in zip(printed, before, strict=True))
+    view.evaluate("dispatchEvent(new Event('afterprint'))")
+    assert view.eval_on_selector_all("details", folded) == before  # what the reader had folded is folded again
+
+
 @pytest.mark.parametrize("width", WIDTHS)
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_nothing_is_cut_and_axe_finds_nothing(view, complaints, width, scheme):
@@ -211,6 +229,21 @@ def test_nothing_is_cut_and_axe_finds_nothing(view, complaints, width, scheme):
     found = view.evaluate("axe.run(document, {resultTypes: ['violations']})")
     assert [(entry["id"], [node["target"] for node in entry["nodes"]][:3]) for entry in found["violations"]] == []
     assert complaints == []
+
+
+def test_errata_that_are_wider_than_a_telephone_are_reached_by_keys(browser, tmp_path):
+    blocks = [Heading(1, "Corrections"), Paragraph(f"Where ${WIDE}$ holds", "Finding"), Formula(WIDE, "Printed:"),
+              Items((Item("in each case:"), Item("$a < b$", 1), Item("$b < c$", 1), Item(f"${WIDE}$"))), Code("a")]
+    (tmp_path / "errata.html").write_text(html_document(blocks, "Corrections"), encoding="utf-8")
+    page = browser.new_page(viewport={"width": WIDTHS[-1], "height": 900})
+    said = []
+    page.on("console", lambda message: said.append(message.text))
+    page.goto((tmp_path / "errata.html").as_uri())
+    page.evaluate(AXE)
+    found = page.evaluate("axe.run(document, {resultTypes: ['violations']})")
+    assert [(entry["id"], entry["nodes"][0]["html"]) for entry in found["violations"]] == []
+    assert page.evaluate("document.documentElement.scrollWidth") == WIDTHS[-1] and said == []
+    page.close()
 
 
 AXE = (files("axe_playwright_python") / "axe.min.js").read_text(encoding="utf-8")

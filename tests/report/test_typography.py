@@ -3,7 +3,7 @@
 import pytest
 
 from workbench.report.claims import by_section, claim_views, in_words
-from workbench.report.typography import set_words
+from workbench.report.typography import set_command, set_words
 
 
 @pytest.mark.parametrize(("typed", "printed"), [
@@ -13,9 +13,20 @@ from workbench.report.typography import set_words
     # Names, dates and differences are as they are.
     ("ISO 2631-1, EN 14033-1:2017, 2026-11-28, x-1, mpc-2", "ISO 2631-1, EN 14033-1:2017, 2026-11-28, x-1, mpc-2"),
     ("first-order, offset-free", "first-order, offset-free"), ("a < b & c", "a &lt; b &amp; c"),
-    ("all with --full.", 'all with <span class="unbroken">--full</span>.')])
+    ("all with --full.", 'all with <span class="unbroken">--full</span>.'),
+    ("by 10 %, 1\u202f234.5 mm/s or -2 m/s³.", 'by <span class="unbroken">10 %</span>, <span class="unbroken">'
+     '1\u202f234.5 mm/s</span> or −<span class="unbroken">2 m/s³</span>.'),
+    ("5.19\u202f×\u202f10⁻³ m; 1 to 3 min", '<span class="unbroken">5.19\u202f×\u202f10⁻³ m</span>; 1 to '
+     '<span class="unbroken">3 min</span>'),
+    # Words that begin as units do, and letters.
+    ("10 more, 2 trains, k_1 2 x, 3 s_d, 5 N/kg/s", "10 more, 2 trains, k_1 2 x, 3 s_d, 5 N/kg/s")])
 def test_signs_dashes_and_options(typed, printed):
     assert set_words(typed) == printed == in_words(typed, letters=False)
+
+
+def test_a_command_is_itself_and_its_options_are_not_broken():
+    assert set_command("workbench report a-5 --out 'b & 3 m' -1") == (
+        'workbench report a-5 <span class="unbroken">--out</span> &#39;b &amp; 3 m&#39; -1')
 
 
 def test_a_formula_keeps_its_own_signs():

@@ -115,10 +115,15 @@ def best_words(rows: Sequence[tuple[str, Mapping[str, Any]]], metric: str, what:
     return words + (f", then {able[1][1]} with {number(able[1][0])} {unit}" if len(able) > 1 else "")
 
 
+def counter_name(key: str) -> str:
+    """What a controller counts, by its key: `lqr_fallbacks` is LQR fallbacks."""
+    return key.replace("_", " ").replace("qp", "QP").replace("lqr", "LQR")
+
+
 def counters_words(counters: Sequence[Mapping[str, int]]) -> str:
     """What MPC counted in all runs, for a note."""
     total: dict[str, int] = {}
     for of_run in counters:
         for key, count in of_run.items():
             total[key] = total.get(key, 0) + count
-    return ", ".join(f"{key} {count}" for key, count in sorted(total.items()) if count) or "nothing"
+    return ", ".join(f"{counter_name(key)} {count}" for key, count in sorted(total.items()) if count) or "nothing"

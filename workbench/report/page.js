@@ -1,4 +1,4 @@
-// Shows the filter, which is of no use without scripts, and opens what folds before printing.
+// Shows the filter, which is of no use without scripts, and opens before printing what is no evidence.
 const filter = document.getElementById("filter");
 const claims = [...document.querySelectorAll("tbody[data-verdict]")];
 const folds = [...document.querySelectorAll("details.paper-section")];
@@ -61,6 +61,11 @@ const measured = new ResizeObserver(entries => {
   }
 });
 for (const display of document.querySelectorAll(".math, details p")) measured.observe(display);
+// Findings and tables are printed whole; evidence where it was open. What was opened for that is closed again.
+let opened = [];
 addEventListener("beforeprint", () => {
-  for (const fold of document.querySelectorAll("details")) fold.open = true;
+  opened = [...document.querySelectorAll("details:is(.group, .more, .long):not([open])")]
+    .filter(fold => !fold.closest("#graph"));
+  for (const fold of opened) fold.open = true;
 });
+addEventListener("afterprint", () => { for (const fold of opened) fold.open = false; });

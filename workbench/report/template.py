@@ -18,6 +18,7 @@ from markupsafe import Markup
 
 from workbench.files.numbers import number, typeset
 from workbench.files.regular import contents
+from workbench.paper.mpc_comparison import counter_name
 from workbench.report.charts.chart import Chart, chart_json
 from workbench.report.charts.files import CURVES
 from workbench.report.claims import ClaimView, by_section, claim_views, counts, fated, in_words
@@ -27,6 +28,7 @@ from workbench.report.math_font import math_font
 from workbench.report.plain_formulas import plain_words
 from workbench.report.sources import SourcedValue, stated
 from workbench.report.svg import PALETTE
+from workbench.report.typography import set_command
 
 PACKAGES = ("workbench", "numpy", "scipy", "sympy", "numba", "casadi", "matplotlib")
 
@@ -59,7 +61,8 @@ def render(template: str, document: Mapping[str, Any], sources: Sequence[Sourced
     environment = Environment(loader=FileSystemLoader(folder), autoescape=True, undefined=StrictUndefined,
                               trim_blocks=True, lstrip_blocks=True)
     environment.filters |= {"number": number, "stated": stated, "typeset": typeset, "breakable": _breakable,
-                            "in_words": in_words, "as_heading": _as_heading}
+                            "in_words": in_words, "as_heading": _as_heading, "counter_name": counter_name,
+                            "set_command": set_command}
     printed = [claim for claim in claims if not claim.ours] or claims
     return environment.get_template(template).render(
         claims=claims, counts=counts(printed), findings=finding_groups(document), sections=by_section(claims),

@@ -87,7 +87,7 @@ def _acceleration(results: ChenResults) -> str:
 def _gains(results: ChenResults) -> Iterator[str]:
     exact, smaller = results.with_values(gains__c_1=1.0), results.with_values(gains__c_3=0.01)
     if exact is not None and len(results.stated.totals):
-        yield (f"The stated c_1 = {results.study.gains.c_1:g} breaks the paper's own condition c_λ > 0 (claim "
+        yield (f"The stated c_1 = {results.study.gains.c_1:g} breaks the paper's own condition c_lambda > 0 (claim "
                f"49.stated). With c_1 = 1, which meets it: {_became(exact)}.")
     scaled = "".join(f"; with the learning factors γ c_3 kept as stated: {_became(run)}"
                      for change, run in results.group("gains")

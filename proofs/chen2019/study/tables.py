@@ -29,7 +29,7 @@ GROUPS = (
      "As stated: every millisecond, the acceleration that solves the loop (claim 16.exists), an estimate corrected by "
      "the error to which its sample led."),
     ("gains", "Stated and repaired gains", "claims 49.stated, 16.stated",
-     "c_λ > 0, the paper's own condition below (49), needs c_1 > 1/2."),
+     "c_lambda > 0, the paper's own condition below (49), needs c_1 > 1/2."),
     ("masses", "Bounds of the mass and the loop through the acceleration", "Assumption 1; claims 16.unique, 16.stated",
      "An unsaturated car answers its law as if it weighed m + 1/c_3 less the estimate."),
     ("assumed", "How much the assumed data matter", "assumed values", ""))
@@ -145,7 +145,7 @@ def bounds(results: ChenResults) -> ResultTable:
         tuple((i + 1, float(change[i]), float(allowed[i]), float(lamda[i] / differences[i]), any_gains,
                study.gains.c_3 / (2 * c_lambda), float(run.total("position_error_square_s")[i]),
                float(2 / c_z * energy[i] + 2 * any_gains * differences[i]) if plain else None) for i in shown),
-        "At t = T, SI units. (51) and (54) as printed are for c_λ > 0; the stated gains give c_λ = "
+        "At t = T, SI units. (51) and (54) as printed are for c_lambda > 0; the stated gains give c_lambda = "
         f"{number(c_lambda)}. E holds the squared error of the coupler's stiffness, of which hardly anything is "
         "learned since the couplers hardly stretch; so (54) bounds little.")
 
