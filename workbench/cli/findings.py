@@ -20,6 +20,7 @@ from workbench.report.finding_sentences import (
     consequence_sentence,
     correction_sentence,
     fate_sentence,
+    needs_sentence,
     printed_sentence,
     reading_sentence,
     verdict_sentence,
@@ -72,7 +73,7 @@ def _finding(found: Finding, verbose: bool) -> Text:
     parts = [verdict_sentence(found)]
     if verbose or found.fate is None:
         parts.append(printed_sentence(found))
-    parts += [correction_sentence(found), condition_sentence(found), reading_sentence(found),
+    parts += [correction_sentence(found), needs_sentence(found), condition_sentence(found), reading_sentence(found),
               consequence_sentence(found)]
     if verbose:
         parts.append(worded(found.note))

@@ -40,33 +40,34 @@ def fates(decisions: Sequence[Decision]) -> dict[str, Fate]:
 
 def _fate(decision: Decision, by_id: dict[str, Decision], mended: Decision | None,
           unshown: tuple[str, ...]) -> Fate:
-    instead = f"; its mended form is proved, “{subject_of(mended.claim.title)}”" if mended else ""
+    form = f"holds in a mended form, “{subject_of(mended.claim.title)}”" if mended else ""
+    by = (mended.claim.id,) if mended else ()
     if decision.verdict == "refuted":
         if holds_in_other_reading(decision, by_id):
             other = str(decision.claim.glyph)
             return Fate("open", f"depends on the reading: {_named((other,), by_id)} holds", (other,))
-        return Fate("falls", f"refuted by {_how(decision)}{instead}", (mended.claim.id,) if mended else ())
+        return Fate("falls", f"refuted by {_how(decision)}{f'; it {form}' if form else ''}", by)
     if decision.verdict == "proved" and not unshown:
         failing = tuple(line for line in decision.tainted_by if not holds_in_other_reading(by_id[line], by_id))
-        open_glyphs = tuple(line for line in decision.tainted_by if line not in failing)
-        holds = "holds in its other reading" if len(open_glyphs) == 1 else "hold in their other readings"
-        readings = f"; {_named(open_glyphs, by_id)} on the way {holds}" if open_glyphs else ""
-        where = f" where {listed(decision.besides)}, which it does not state," if decision.besides else ","
+        where = f"holds where {listed(decision.besides)}, which it does not state," if decision.besides else "holds,"
         if not failing:
-            return Fate("stands", f"proved{where} and no line that the paper uses to get there fails{readings}",
-                        open_glyphs)
-        return Fate("stands with corrections", f"proved as a whole{where} though the paper's way there fails at "
-                    f"{_named(failing, by_id)}{readings}", failing)
+            return Fate("stands", f"{where} and so does every line that the paper uses to get there",
+                        tuple(decision.tainted_by))
+        fail = "fails" if len(failing) == 1 else "fail"
+        return Fate("stands with corrections", f"{where} but not by the way of the text, which uses "
+                    f"{_named(failing, by_id)}, which {fail}", failing)
     if mended is not None:
-        return Fate("stands with corrections", f"{_shortfall(decision, unshown, by_id)}{instead}", (mended.claim.id,))
+        return Fate("stands with corrections", f"{_shortfall(decision, unshown, by_id)}; it {form}", by)
     return Fate("open", _shortfall(decision, unshown, by_id), unshown)
 
 
 def _shortfall(decision: Decision, unshown: tuple[str, ...], by_id: Mapping[str, Decision]) -> str:
     if decision.verdict == "proved":
-        return f"proved only under lines that are not shown: {_named(unshown, by_id)}"
-    return {"gap": "does not follow from its premises", "violated": "its conditions fail at the printed numbers",
-            "assumed": "taken as given, its proof was not checked", "undecided": "not decided"}[decision.verdict]
+        one = len(unshown) == 1
+        return (f"is proved only where {_named(unshown, by_id)} {'holds' if one else 'hold'}, which "
+                f"{'is' if one else 'are'} not shown")
+    return {"gap": "does not follow as printed", "violated": "does not hold at the printed numbers",
+            "assumed": "is taken as given, its proof was not checked", "undecided": "is not decided"}[decision.verdict]
 
 
 def _how(decision: Decision) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Mapping, Sequence
+from copy import deepcopy
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import product
@@ -169,7 +170,8 @@ def _at_once(world: _World, goal: Certificate) -> tuple[Context, dict[str, Ratio
 def _throughout(world: _World, text: str) -> bool:
     """Whether a relation holds along a motion at all times: decided where time drops out of it."""
     left, operator, right = split_relation(text)
-    sides = [_Motion(world.motion).visit(parse(side)) for side in (left, right)]
+    # Trees that are read once are kept by the checker: what is put in goes into copies.
+    sides = [_Motion(world.motion).visit(deepcopy(parse(side))) for side in (left, right)]
     used = {node.id for side in sides for node in ast.walk(side) if isinstance(node, ast.Name)} & world.point.keys()
     context = Context({world.time: "1", **dict.fromkeys(sorted(used), "0")}, [])
     value, sign = margin(context, f"{ast.unparse(sides[0])} {operator} {ast.unparse(sides[1])}")
@@ -187,7 +189,7 @@ class _Motion(ast.NodeTransformer):
         self.motion = motion
 
     def visit_Name(self, node: ast.Name) -> ast.expr:
-        return self.motion.get(node.id, node)
+        return deepcopy(self.motion[node.id]) if node.id in self.motion else node
 
     def visit_Call(self, node: ast.Call) -> ast.expr:
         func, args = node.func, [self.visit(arg) for arg in node.args]

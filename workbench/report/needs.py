@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -62,12 +62,17 @@ def _used(d: Decision, by_id: Mapping[str, Decision]) -> Iterator[Decision]:
 def _need(d: Decision, goal: Goal, equation: str, statement: str, by_id: Mapping[str, Decision]) -> Need:
     shown = {text for name in d.claim.premises if name in by_id
              for text in ((by_id[name].certificate or {}).get("goal") or {}).get("show", [])}
-    given = [text for text in (*goal.get("assume", []), *goal.get("always", [])) if text not in shown]
     letters = letters_of(d)
-    conditions = tuple(map(letters.in_formula, (*_relations(given), *signs(given))))
+    conditions = tuple(map(letters.in_formula, conditions_of(goal, shown)))
     rates = tuple(map(letters.in_formula, motion_of(goal)))
     return Need(equation, d.claim.title if equation else "", statement, conditions, rates,
                 letters.legend((*conditions, *rates)))
+
+
+def conditions_of(goal: Goal, shown: Collection[str] = ()) -> list[str]:
+    """What a goal assumes, as LaTeX, without what is shown elsewhere; the signs of letters last."""
+    given = [text for text in (*goal.get("assume", []), *goal.get("always", [])) if text not in shown]
+    return [*_relations(given), *signs(given)]
 
 
 def _relations(texts: Sequence[str]) -> list[str]:

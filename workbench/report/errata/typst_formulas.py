@@ -80,6 +80,9 @@ def _piece(node: ElementTree.Element, display: bool) -> str:
         return _scripts(parts, _SCRIPTS[node.tag], node.tag.startswith("mu") or (parts[0].text or "") in LIMITS)
     if node.tag == "mover":
         return _over(parts)
+    if node.tag == "mtable":
+        rows = ("; ".join(", ".join(_inner(cell) for cell in row) for row in parts))
+        return f"mat(delim: #none, align: #left, {rows})"
     if node.tag == "mroot":
         return f"root({_inner(parts[1])}, {_inner(parts[0])})"
     return f"sqrt({_row(parts, False)})" if node.tag == "msqrt" else _row(parts, display)
