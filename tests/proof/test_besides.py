@@ -64,7 +64,7 @@ def test_what_a_premise_assumes_is_said_of_what_uses_it(name):
     last = judged(*builders)[-1]
     assert last.besides == taken
     assert last.fate.word == "stands"
-    assert f"proved where {taken[0]}, which it does not state" in last.fate.why
+    assert f"holds where {taken[0]}, which it does not state" in last.fate.why
 
 
 def test_a_headline_whose_own_way_fails_says_it_too():
@@ -75,14 +75,14 @@ def test_a_headline_whose_own_way_fails_says_it_too():
         lambda: everywhere(paper.shown("1")))
     last = decide_all(paper.claims)[-1]
     assert last.fate.word == "stands with corrections"
-    assert "proved as a whole where x >= 1 (1), which it does not state, though the paper's way" in last.fate.why
+    assert "holds where x >= 1 (1), which it does not state, but not by the way of the text" in last.fate.why
 
 
 @pytest.mark.parametrize("name", AS_WIDE)
 def test_nothing_is_said_where_a_premise_assumes_no_more(name):
     last = judged(*AS_WIDE[name])[-1]
     assert last.besides == ()
-    assert last.fate.why == "proved, and no line that the paper uses to get there fails"
+    assert last.fate.why == "holds, and so does every line that the paper uses to get there"
 
 
 def test_a_claim_names_what_it_takes():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -34,7 +34,8 @@ class Finding:
     reading: how a person read it; printed, should_read: LaTeX of the line and of the nearest true statement,
     which is proved (empty where none is known); mended_by: the equation of the claim that proves it as a line of its
     own, mended_under: the equations of what that proof uses and that is not shown; counterexample: what breaks it;
-    headlines: the theorems and headline statements that rest on it, lines: how many other lines do; because: the lines
+    headlines: the theorems and headline statements that rest on it, lines: how many other lines do, without those that
+    fail whether it holds or not; because: the lines
     that fail on the way to it, roots: those of them that rest on no other one, otherwise: those of them that hold in
     their other reading, kept and broken: those of them that hold, and that fail, at its own counterexample, causes: of
     the rest those that rest on no other one of it; alone: whether the line fails by itself; needs: what the true
@@ -95,15 +96,17 @@ def findings(decisions: Sequence[Decision]) -> list[Finding]:
         fails = d.verdict in FAILED or (d.fate is not None and d.fate.word != "stands")
         if d.claim.origin == "ours" or not fails or d.claim.id in alternatives:
             continue
-        found.append(_finding(d, by_id, mended.get(d.claim.id), decisions, on_the_way.get(d.claim.id, Way())))
+        found.append(_finding(d, by_id, mended.get(d.claim.id), decisions, on_the_way))
     papers = list(dict.fromkeys(d.claim.paper for d in decisions))
     return sorted(found, key=lambda f: (papers.index(f.paper), GRAVITIES.index(f.gravity), not f.alone,
                                         -len(f.headlines), place[f"{f.paper}:{f.equation}"]))
 
 
 def _finding(d: Decision, by_id: dict[str, Decision], mended: Decision | None,
-             decisions: Sequence[Decision], way: Way) -> Finding:
-    resting = [other for other in decisions if d.claim.id in other.tainted_by and other.claim.origin != "ours"]
+             decisions: Sequence[Decision], on_the_way: Mapping[str, Way]) -> Finding:
+    way = on_the_way.get(d.claim.id, Way())
+    resting = [other for other in decisions if d.claim.id in other.tainted_by and other.claim.origin != "ours"
+               and d.claim.id not in on_the_way.get(other.claim.id, Way()).kept]
     headlines = tuple(other.claim.equation for other in resting if is_headline(other))
     lines = len(resting) - len(headlines)
     holds = holds_in_other_reading(d, by_id)

@@ -40,13 +40,15 @@ def short_verdict(found: Finding) -> str:
     if found.verdict == "proved":
         if found.gravity == "corrected" and found.mended_by not in found.fate_by:
             fail = "fails" if len(found.fate_by) == 1 else "fail"
-            return f"{name} holds, but not by the way of the text, which uses {_named(found, found.fate_by)}, which {fail}"
+            return (f"{name} holds, but not by the way of the text, which uses {_named(found, found.fate_by)}, which "
+                    f"{fail}")
         lines = f", {_named(found, found.fate_by)}" if found.gravity != "corrected" else ""
         return f"{name} is shown only from lines that are not shown{lines}"
     if found.origin == "implied":
         place = worded(whole_of(found.equation, found.title))
         says = f", “{worded(subject_of(found.title))}”," if subject_of(found.title) not in place else ""
-        name = f"What the text implies at {place[:1].lower() if place.startswith(_SMALL) else place[:1]}{place[1:]}{says}"
+        place = place[:1].lower() + place[1:] if place.startswith(_SMALL) else place
+        name = f"What the text implies at {place}{says}"
     return f"{name} {_words(found)}"
 
 
@@ -64,8 +66,9 @@ def _words(found: Finding) -> str:
     motion = found.counterexample is not None and found.counterexample.motion
     by_motion = " by a motion of the printed closed loop"
     if is_assumption(found):
-        return {"refuted": f"is not met{by_motion if motion else ''}", "violated": "is not met at the printed numbers",
-                "gap": "does not give what the paper takes from it"}.get(found.verdict, _verdicts("", "")[found.verdict])
+        return ({**_verdicts("", ""), "refuted": f"is not met{by_motion if motion else ''}",
+                 "violated": "is not met at the printed numbers", "gap": "does not give what the paper takes from it"}
+                [found.verdict])
     printed = " as extracted" if found.gravity == "reading" else " as printed" if found.origin == "printed" else ""
     return _verdicts(printed, f",{by_motion}" if motion else "")[found.verdict] if found.origin == "printed" or (
         found.verdict != "refuted") else f"does not hold{f',{by_motion}' if motion else ''}"
@@ -154,8 +157,9 @@ def _way(found: Finding) -> str:
     failing = [line for line in found.because if line not in {*found.otherwise, *found.kept}]
     if not failing:
         kept = [line for line in found.kept if line in found.because]
-        return f"It fails by itself: at its counterexample {_named(found, kept)} {'holds' if len(kept) == 1 else 'hold'}." \
-            if found.alone and 0 < len(kept) <= NAMED else ""
+        told = found.alone and 0 < len(kept) <= NAMED
+        holds = "holds" if len(kept) == 1 else "hold"
+        return f"It fails by itself: at its counterexample {_named(found, kept)} {holds}." if told else ""
     named = list(found.causes) if found.causes and len(failing) > NAMED else failing
     others = len(failing) - len(named)
     fail, these = ("fails", "it") if len(named) == 1 else ("fail", "these")
@@ -189,7 +193,8 @@ def _ended(sentence: str, formula: str) -> str:
 def sentences(found: Finding) -> list[str]:
     """All that a referee would write of it."""
     return [s for s in (verdict_sentence(found), printed_sentence(found), correction_sentence(found),
-                        needs_sentence(found), condition_sentence(found), reading_sentence(found), consequence_sentence(found)) if s]
+                        needs_sentence(found), condition_sentence(found), reading_sentence(found),
+                        consequence_sentence(found)) if s]
 
 
 def findings_document(found: Sequence[Finding]) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""Whether a counterexample of one line keeps another line that fails: then the first one does not fail by the second."""
+"""Whether a counterexample of one line keeps another one that fails: then the first does not fail by the second."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Other:
 @dataclass(frozen=True)
 class _World:
     """What a counterexample gives: values of letters, rates, letters that vary with no known rate, the terms of sums,
-    numbers between which roots lie; of a motion functions of time for letters and for their rates; chosen: letters whose
+    numbers between which roots lie; of a motion functions of time for letters and their rates; chosen: letters whose
     values were left free."""
 
     point: Mapping[str, str]
@@ -148,7 +148,7 @@ def _holds(world: _World, goal: Certificate) -> bool | None:
             told = partial(holds, context, point=point, terms=terms, between=world.between)
         if not all(told(text) for text in _assumed(goal)):
             return None
-        return all([told(text) for text in goal["show"]])
+        return {told(text) for text in goal["show"]} == {True}
     except CertificateError:
         return None
 

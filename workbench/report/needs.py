@@ -1,4 +1,4 @@
-"""What a corrected statement holds for: what its proof assumes, along which motion, and what the lines say that it uses."""
+"""What a corrected statement holds for: what its proof assumes and along which motion, and the same of what it uses."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from workbench.proof.checker import calls
+from workbench.proof.places import place_of
 from workbench.proof.verdict import Decision
 from workbench.report.certificate_latex import SIGNS, expression_latex, name_latex, rate_latex, relation_latex
 from workbench.report.letters import letters_of
@@ -22,7 +23,8 @@ class Need:
 
     equation: of the line that says it, empty for the corrected statement itself; title: what that is called; statement:
     what it says; conditions: what is assumed, without what the lines show that it uses; rates: the motion along which
-    it holds, of the letters whose rates matter; letters: what those of them are that the paper does not have.
+    it holds, of the letters whose rates matter; uses: the paper's own lines that its proof uses; letters: what those
+    letters are that the paper does not have.
     """
 
     equation: str
@@ -30,6 +32,7 @@ class Need:
     statement: str
     conditions: tuple[str, ...]
     rates: tuple[str, ...]
+    uses: tuple[str, ...]
     letters: str
 
 
@@ -65,7 +68,9 @@ def _need(d: Decision, goal: Goal, equation: str, statement: str, by_id: Mapping
     letters = letters_of(d)
     conditions = tuple(map(letters.in_formula, conditions_of(goal, shown)))
     rates = tuple(map(letters.in_formula, motion_of(goal)))
-    return Need(equation, d.claim.title if equation else "", statement, conditions, rates,
+    uses = tuple(place_of(found.claim.equation, found.claim.title) for name in d.claim.premises
+                 if (found := by_id.get(name)) is not None and found.claim.origin != "ours")
+    return Need(equation, d.claim.title if equation else "", statement, conditions, rates, uses,
                 letters.legend((*conditions, *rates)))
 
 

@@ -15,14 +15,18 @@ from workbench.report.worded import worded
 NAMED = 3  # lines up to which each is named
 
 
-def resting_lines(decisions: Sequence[Decision]) -> dict[str, list[str]]:
-    """The equations of the lines that rest on each failing one and are no headline statements, by its equation."""
-    found: dict[str, list[str]] = {}
+def resting_lines(decisions: Sequence[Decision], found: Sequence[Finding]) -> dict[str, list[str]]:
+    """The equations of the lines that rest on each failing one and are no headline statements, by its equation; without
+    those that fail whether it holds or not."""
+    kept = {f.equation: f.kept for f in found}
+    resting: dict[str, list[str]] = {}
     for d in decisions:
         if d.claim.origin != "ours" and not is_headline(d):
             for name in d.tainted_by:
-                found.setdefault(name.partition(":")[2], []).append(d.claim.equation)
-    return found
+                equation = name.partition(":")[2]
+                if equation not in kept.get(d.claim.equation, ()):
+                    resting.setdefault(equation, []).append(d.claim.equation)
+    return resting
 
 
 def consequence(found: Finding, numbers: Mapping[str, int], lines: Sequence[str], titles: Mapping[str, str]) -> str:
@@ -54,8 +58,9 @@ def _way(found: Finding, numbers: Mapping[str, int]) -> str:
     if len(failing) > NAMED:
         return f"In the text it rests on lines that fail ({corrections(failing, numbers)})."
     about = corrections(failing, numbers)
-    return (f"In the text it rests on {worded(listed(places_of(failing, found.titles)))}{f' ({about})' if about else ''}"
-            f", which {'fails' if len(failing) == 1 else 'fail'}.")
+    named = worded(listed(places_of(failing, found.titles)))
+    return (f"In the text it rests on {named}{f' ({about})' if about else ''}, which "
+            f"{'fails' if len(failing) == 1 else 'fail'}.")
 
 
 def corrections(equations: Iterable[str], numbers: Mapping[str, int]) -> str:

@@ -13,6 +13,7 @@ LINE = 150  # characters of LaTeX up to which short formulas share a line
 MOST_GIVEN = 6000  # characters of all conditions beyond which a reader is sent to the certificate
 COMMA = r",\ "
 # What stands in front of conditions, of what holds at all times, of the rates of a motion and of its beginning.
+STATEMENT_CHECKED = "Statement checked"
 UNDER, ALWAYS, ALONG, FIRST, WITH = "Under the conditions", "At all times", "For the motion with", "Starting at", "With"
 
 

@@ -60,7 +60,7 @@ def _counts(decisions: Sequence[Decision], readings: Sequence[str], at_hand: boo
     said = f", {implied} of which {implies}" if implied else ""
     meant = {"proved": f"true for all values of its domain{only}", "refuted": "false, or assumed and not met",
              "violated": "a printed condition that the printed numbers break",
-             "gap": "it does not follow from what the paper uses to get there", "undecided": "not decided",
+             "gap": "it does not follow from what the text uses to get there", "undecided": "not decided",
              "assumed": "a cited result or a definition, taken as given"}
     told = " ".join(f"{verdict.capitalize()}: {meant[verdict]}." for verdict in VERDICTS if counts[verdict])
     return f"Of {len(own)} lines{said}, {words}{_open_readings(len(readings))}. {told}"
@@ -83,7 +83,7 @@ def _verb(verdict: str, count: int) -> str:
 
 
 def _fates(decisions: Sequence[Decision], found: Sequence[Finding], context: Context) -> list[Block]:
-    """Those that fall first, after how many there are of each, with their corrections and on which others these rest."""
+    """Those that fall first, after how many there are of each, with their corrections and what these rest on."""
     told_of = {f.equation: f for f in found}
     fated = [(d.fate, d.claim) for d in decisions if d.fate is not None]
     told = sorted(fated, key=lambda pair: GRAVEST_FIRST.index(pair[0].word))

@@ -40,7 +40,7 @@ def context_of(found: Sequence[Finding], decisions: Sequence[Decision], printed:
     return Context({d.claim.equation: d.claim.title for d in decisions},
                    {d.claim.equation: titles.get(d.claim.glyph or "", "") for d in decisions},
                    {d.claim.equation: letters_of(d) for d in decisions},
-                   resting_lines(decisions), causes, correction_numbers(found, causes), printed)
+                   resting_lines(decisions, found), causes, correction_numbers(found, causes), printed)
 
 
 def heading_of(found: Finding) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from workbench.report.counterexample import Counterexample
 from workbench.report.errata.blocks import Block, Formula, Heading, Paragraph
 from workbench.report.errata.chain import consequence
-from workbench.report.errata.conditions import ALONG, LONGEST, UNDER, listed_conditions
+from workbench.report.errata.conditions import ALONG, LONGEST, STATEMENT_CHECKED, UNDER, listed_conditions
 from workbench.report.errata.context import Context, corrected, heading_of, labelled, line_of
 from workbench.report.errata.letters import legend
 from workbench.report.errata.names import noted
@@ -88,7 +88,8 @@ def _found(found: Finding, context: Context, told: bool) -> list[Block]:
     worked: list[Block] = []
     if found.counterexample is not None and before is None:
         worked = _worked(found.counterexample, context.told)
-    told_of = legend([*finding, *worked], context.letters[found.equation]) if worked else ""
+    before_it = found.needs if told else ()
+    told_of = legend([*finding, *worked], context.letters[found.equation], before_it) if worked else ""
     blocks = [*finding, *labelled(("Letters", told_of)), *worked]
     if found.counterexample is not None and before is not None:
         blocks.append(Paragraph(f"The counterexample is that of correction {before}, where it is written out."))
@@ -102,7 +103,7 @@ def _worked(point: Counterexample, told: Mapping[object, int]) -> list[Block]:
     if point.left is None or point.right is None:
         return []
     short = point.put_in is not None or len(point.relation) <= LONGEST
-    found: list[Block] = [Formula(point.relation, "Statement checked")] if short else []
+    found: list[Block] = [Formula(point.relation, STATEMENT_CHECKED)] if short else []
     found += _conditions(point, told)
     sides, label = [point.left, point.right], "At these values"
     if point.put_in is not None:

@@ -14,8 +14,8 @@ from workbench.report.finding import Finding
 from workbench.report.finding_sentences import short_verdict, verdict_sentence
 from workbench.report.worded import worded
 
-RESTING = ("With the numbers of their corrections. A gap does not follow from what the text uses, the others are false; "
-           "that they would stand without the causes is not said.")
+RESTING = ("With the numbers of their corrections. A gap does not follow from what the text uses, the others are "
+           "false; that they would stand without the causes is not said.")
 
 
 def in_short(found: Sequence[Finding], context: Context) -> list[Block]:
@@ -85,7 +85,7 @@ def _told(cause: Cause, context: Context) -> list[Block]:
     resting = context.resting.get(found.equation, ())
     blocks = [Heading(3, f"{context.numbers[found.equation]}. {heading_of(found)}"), line_of(found, context),
               *corrected(found), finding, *labelled(
-                  ("Letters", legend([finding], context.letters[found.equation])),
+                  ("Letters", legend([finding], context.letters[found.equation], found.needs)),
                   ("Consequence", consequence(found, context.numbers, resting, context.titles)),
                   ("Note", noted(found.note, context.titles)))]
     for other in alike:

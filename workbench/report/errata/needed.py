@@ -33,5 +33,7 @@ def needed(needs: Sequence[Need]) -> list[Block]:
 
 
 def _conditions(need: Need) -> list[Block]:
-    told = [Paragraph(need.letters, "Letters")] if need.letters else []
-    return [*listed_conditions({UNDER: need.conditions, ALONG: need.rates}), *told]
+    uses = worded(listed(need.uses))
+    told = (("Letters", need.letters), ("Also used", f"{uses}." if uses else ""))
+    return [*listed_conditions({UNDER: need.conditions, ALONG: need.rates}),
+            *(Paragraph(text, label) for label, text in told if text)]

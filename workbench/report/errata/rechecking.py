@@ -21,14 +21,17 @@ def rechecking(decisions: Sequence[Decision], found: Sequence[Finding], proofs: 
     rows += [("proof", d.claim.equation, goal_digest(d.certificate)) for d in proofs if d.certificate]
     wide = max((len(name) for _, name, _ in rows), default=0)
     table = "\n".join(f"{number:>7}  {name:<{wide}}  {digest}" for number, name, digest in rows)
+    one: list[Block] = []
+    if rows:
+        one = [Paragraph("One of them, and that it is for the line named, is re-checked by:"),
+               Code(f"python {CHECKER} certificates/NAME.json --claim-digest DIGEST"),
+               Paragraph("with a name and a digest of this table, in which numbers are those of the corrections:"),
+               Code(table)]
     return [Heading(2, "How to re-check"),
             Paragraph("checker.py is one file that imports Python's standard library alone and knows nothing of the "
                       "programs that found the proofs. With it and the folder of certificates, all of them are "
                       "re-checked by:"),
             Code(f"python {CHECKER} certificates"),
-            *([Paragraph("One of them, and that it is for the line named, is re-checked by:"),
-               Code(f"python {CHECKER} certificates/NAME.json --claim-digest DIGEST"),
-               Paragraph("with a name and a digest of this table, in which numbers are those of the corrections:"),
-               Code(table)] if rows else []),
+            *one,
             Paragraph("The workbench writes the certificates and these corrections by:"),
             Code(f"workbench prove {paper} --write\nworkbench errata {paper}")]

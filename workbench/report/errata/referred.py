@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from workbench.proof.verdict import Decision
 from workbench.report.counterexample_cache import cached_counterexample
 from workbench.report.errata.blocks import Block, Formula, Heading, Items, Paragraph
-from workbench.report.errata.conditions import ALONG, UNDER, listed_conditions
+from workbench.report.errata.conditions import ALONG, STATEMENT_CHECKED, UNDER, listed_conditions
 from workbench.report.errata.letters import in_blocks, legend
 from workbench.report.errata.names import lines_named, name_of_line
 from workbench.report.errata.proof_steps import proof_steps
@@ -44,7 +44,8 @@ def _line(d: Decision) -> list[Block]:
         if proof is not None and len(proof.lines) <= SHORT and not (proof.given or proof.always):
             shown.append(Items(proof.lines))
     elif point := cached_counterexample(certificate) if goal else None:
-        shown = [Paragraph(f"{breaks_at(point)}.", "It fails")]
+        at = breaks_at(point)
+        shown = [Formula(point.relation, STATEMENT_CHECKED), Paragraph(f"{at[:1].upper()}{at[1:]}.", "Finding")]
     verdict = {"proved": "Proved, where lines hold that are not shown." if d.proved_under else "Proved.",
                "assumed": "Taken as given, its proof was not checked.", "undecided": "Not decided.",
                "refuted": "It does not hold.", "violated": "It does not hold at the printed numbers.",

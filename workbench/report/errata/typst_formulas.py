@@ -80,9 +80,6 @@ def _piece(node: ElementTree.Element, display: bool) -> str:
         return _scripts(parts, _SCRIPTS[node.tag], node.tag.startswith("mu") or (parts[0].text or "") in LIMITS)
     if node.tag == "mover":
         return _over(parts)
-    if node.tag == "mtable":
-        rows = ("; ".join(", ".join(_inner(cell) for cell in row) for row in parts))
-        return f"mat(delim: #none, align: #left, {rows})"
     if node.tag == "mroot":
         return f"root({_inner(parts[1])}, {_inner(parts[0])})"
     return f"sqrt({_row(parts, False)})" if node.tag == "msqrt" else _row(parts, display)
@@ -116,8 +113,15 @@ def _number(node: ElementTree.Element, text: str) -> str:
     return text if text.replace(".", "", 1).isdigit() else quoted(text)
 
 
+def _table(node: ElementTree.Element) -> str:
+    """The lines of cases or of a matrix; what bounds them stands beside it."""
+    rows = "; ".join(", ".join(_inner(cell) for cell in row) for row in node)
+    return f"mat(delim: #none, align: #left, {rows})"
+
+
 _SIMPLE: dict[str, Callable[[ElementTree.Element, str], str]] = {
-    "mi": _letters, "mn": _number, "mtext": lambda node, text: quoted(text.replace("\u00a0", " ")),
+    "mtable": lambda node, text: _table(node), "mi": _letters,
+    "mn": _number, "mtext": lambda node, text: quoted(text.replace("\u00a0", " ")),
            "mspace": lambda node, text: "med", "mo": lambda node, text: _sign(text, False)}
 _SCRIPTS = {"msub": "b", "msup": "t", "msubsup": "bt", "munder": "b", "munderover": "bt"}
 

@@ -27,8 +27,12 @@ def what_holds(decisions: Sequence[Decision]) -> list[Block]:
 def _named(own: Sequence[Decision]) -> str:
     numbered = [d for d in own if d.claim.equation[0].isdigit() and not is_headline(d)]
     plain = places_of([d.claim.equation for d in numbered], {d.claim.equation: _short(d) for d in numbered})
-    told = [f"{whole} ({subject})" if (subject := subject_of(d.claim.title)) != whole else whole
-            for d in own if d not in numbered for whole in (whole_of(d.claim.equation, d.claim.title),)]
+    parts: dict[str, list[str]] = {}
+    for d in own:
+        if d not in numbered:
+            whole, subject = whole_of(d.claim.equation, d.claim.title), subject_of(d.claim.title)
+            parts.setdefault(whole, []).extend([subject] if subject != whole else [])
+    told = [f"{whole} ({'; '.join(subjects)})" if subjects else whole for whole, subjects in parts.items()]
     return worded("; ".join(filter(None, [listed(plain), *told])))
 
 
