@@ -11,6 +11,7 @@ from workbench.proof.checker import calls
 from workbench.proof.places import place_of
 from workbench.proof.verdict import Decision
 from workbench.report.certificate_latex import SIGNS, expression_latex, name_latex, rate_latex, relation_latex
+from workbench.report.dots import dotted
 from workbench.report.letters import letters_of
 
 Goal = Mapping[str, Any]
@@ -100,6 +101,13 @@ def motion_of(goal: Goal) -> list[str]:
     told = [*goal.get("assume", []), *goal["show"]]
     if not (initial or goal.get("eventually") or any(calls(text, "D") for text in told)):
         return []
-    moving = [name for name in flow if flow[name] != "0" or initial.get(name) != name]
+    moving = [name for name in flow if (flow[name] != "0" or initial.get(name) != name) and not names_rate(
+        name, flow[name])]
     return [*(f"{name_latex(name)}(0) = {expression_latex(initial[name])}" for name in initial if name in moving),
             *(rate_latex(name, flow[name]) for name in moving)]
+
+
+def names_rate(name: str, rate: str) -> bool:
+    """Whether a rate only has its own letter, which is written as the derivative."""
+    left, _, right = rate_latex(name, rate).partition(" = ")
+    return dotted(left) == right

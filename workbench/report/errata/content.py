@@ -11,6 +11,7 @@ from workbench.report.errata.blocks import Block, Heading, Item, Items, Paragrap
 from workbench.report.errata.context import Context, context_of
 from workbench.report.errata.corrections import evidence
 from workbench.report.errata.in_short import causes_told, in_short
+from workbench.report.errata.letters import with_dots
 from workbench.report.errata.mended import mended_statements
 from workbench.report.errata.rechecking import rechecking
 from workbench.report.errata.referred import lines_referred_to
@@ -41,12 +42,13 @@ def errata(decisions: Sequence[Decision], citation: str, at_hand: bool = True) -
     context = context_of(found, decisions, PRINTED if at_hand else COMMON)
     mended, proofs = mended_statements(decisions, titles)
     failing = any(f.verdict in FAILED for f in found)
-    return [Heading(1, "Corrections" if failing else "Corrections: none"), Paragraph(citation, "Paper"),
+    blocks = [Heading(1, "Corrections" if failing else "Corrections: none"), Paragraph(citation, "Paper"),
             Paragraph(ABOUT if at_hand else f"{ABOUT} {NOT_AT_HAND}"),
             Paragraph(_counts(decisions, [f.equation for f in found if f.gravity == "reading"], at_hand)),
             *_fates(decisions, found, context), *in_short(found, context), *what_holds(decisions),
             *evidence(found, context), *mended, *lines_referred_to(decisions, found, proofs),
             *rechecking(decisions, found, proofs, context.numbers)]
+    return with_dots(blocks)
 
 
 def _counts(decisions: Sequence[Decision], readings: Sequence[str], at_hand: bool) -> str:
