@@ -47,9 +47,17 @@ def test_the_conditions_of_a_correction_stand_directly_below_it():
 
 def test_a_mended_form_says_what_the_lines_say_that_its_proof_uses():
     rows = changed("theorem1.mended", {"premises": ("doe2026:7.glyph", "doe2026:lemma2")})
-    text = told(rows)
-    below = text[text.index("### 2. Theorem 1"):text.index("**Finding.** Theorem 1")]
-    assert "**It uses.** Equation (7) “the line 7.glyph”, which is:" in below and "**Also used.** Lemma 2." in below
+    def below(rows):
+        text = told(rows)
+        return text[text.index("### 2. Theorem 1"):text.index("**Finding.** Theorem 1")]
+
+    assert "**Also used.** Lemma 2.\n" in below(rows)
+    assert "**It uses.** Equation (7) “the line 7.glyph”, under no conditions but the signs of letters." in below(rows)
+    # What it assumes belongs to the statement.
+    more = [replace(d, certificate=d.certificate | {"goal": d.certificate["goal"] | {"assume": ["z_1 <= 5"]}})
+            if d.claim.equation == "7.glyph" else d for d in rows]
+    assert "**It uses.** Equation (7) “the line 7.glyph”, which is:\n\n$$\nz_1^2 \\ge 0\n$$" in below(more)
+    assert "$$\nz_{1} \\le 5\n$$" in below(more)
 
 
 def test_an_assumption_is_not_met_and_what_is_implied_does_not_hold():

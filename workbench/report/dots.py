@@ -22,6 +22,12 @@ def dotted(latex: str) -> str:
         lambda one: rf"\frac{{d}}{{dt}} {one[0]}", found[1]), latex))
 
 
+def only_names(rate: str) -> bool:
+    """Whether `d/dt x = r` says no more than that the rate of x is called so."""
+    left, _, right = rate.partition(" = ")
+    return re.sub(r"[{}\s]", "", dotted(left)) == re.sub(r"[{}\s]", "", right)
+
+
 def dotted_text(text: str) -> str:
     """A text with the same in its formulas, which stand between dollar signs."""
     return "$".join(dotted(piece) if i % 2 else piece for i, piece in enumerate(text.split("$")))

@@ -11,7 +11,7 @@ from workbench.proof.checker import calls
 from workbench.proof.places import place_of
 from workbench.proof.verdict import Decision
 from workbench.report.certificate_latex import SIGNS, expression_latex, name_latex, rate_latex, relation_latex
-from workbench.report.dots import dotted
+from workbench.report.dots import only_names
 from workbench.report.letters import letters_of
 
 Goal = Mapping[str, Any]
@@ -68,7 +68,7 @@ def _need(d: Decision, goal: Goal, equation: str, statement: str, by_id: Mapping
              for text in ((by_id[name].certificate or {}).get("goal") or {}).get("show", [])}
     letters = letters_of(d)
     conditions = tuple(map(letters.in_formula, conditions_of(goal, shown)))
-    rates = tuple(map(letters.in_formula, motion_of(goal)))
+    rates = tuple(rate for rate in map(letters.in_formula, motion_of(goal)) if not only_names(rate))
     uses = tuple(place_of(found.claim.equation, found.claim.title) for name in d.claim.premises
                  if (found := by_id.get(name)) is not None and found.claim.origin != "ours")
     return Need(equation, d.claim.title if equation else "", statement, conditions, rates, uses,
@@ -101,13 +101,7 @@ def motion_of(goal: Goal) -> list[str]:
     told = [*goal.get("assume", []), *goal["show"]]
     if not (initial or goal.get("eventually") or any(calls(text, "D") for text in told)):
         return []
-    moving = [name for name in flow if (flow[name] != "0" or initial.get(name) != name) and not names_rate(
-        name, flow[name])]
+    moving = [name for name in flow if (flow[name] != "0" or initial.get(name) != name) and not only_names(
+        rate_latex(name, flow[name]))]
     return [*(f"{name_latex(name)}(0) = {expression_latex(initial[name])}" for name in initial if name in moving),
             *(rate_latex(name, flow[name]) for name in moving)]
-
-
-def names_rate(name: str, rate: str) -> bool:
-    """Whether a rate only has its own letter, which is written as the derivative."""
-    left, _, right = rate_latex(name, rate).partition(" = ")
-    return dotted(left) == right

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from workbench.report.certificate_latex import expression_latex, name_latex, rate_latex
+from workbench.report.dots import only_names
 from workbench.report.errata.blocks import Block, Formula, Paragraph
-from workbench.report.needs import names_rate
 
 LONGEST = 900  # characters of a formula beyond which its parts stand below each other
 LINE = 150  # characters of LaTeX up to which short formulas share a line
@@ -22,8 +22,8 @@ def motion(goal: Mapping[str, Any]) -> dict[str, list[str]]:
     """Where a goal's motion begins and what it obeys, by what stands in front of it, as LaTeX; no more of what stays
     as it is."""
     initial, flow = goal.get("initial", {}), goal.get("flow", {})
-    moving = [name for name in flow if (flow[name] != "0" or initial.get(name) != name) and not names_rate(
-        name, flow[name])]
+    moving = [name for name in flow if (flow[name] != "0" or initial.get(name) != name) and not only_names(
+        rate_latex(name, flow[name]))]
     return {FIRST: [f"{name_latex(name)} = {expression_latex(initial[name])}" for name in initial
                          if name in moving],
             ALONG: [rate_latex(name, flow[name]) for name in moving]}
