@@ -239,6 +239,14 @@ def test_numbers_of_one_counterexample_are_all_decimals_or_all_fractions(point, 
     assert breaks_at(counterexample_of(certificate("a:1", "refuted", show, point))) == shown
 
 
+@pytest.mark.parametrize(("show", "sides"), [
+    ("-2*exp(-x) >= 0", (r"-2 e^{-1}", "0")), ("log(x + 1) <= exp(0)/2", (r"\ln\left(2\right)", "0.5")),
+    ("exp(-x) + 1 <= 1", (r"\approx 1.36788", "1")), ("D(exp(-x)) >= 0", ("-e^{-1}", "0"))])
+def test_a_side_that_is_one_exponential_or_logarithm_is_not_rounded(show, sides):
+    found = counterexample_of({"verdict": "refuted", "point": {"x": "1"}, "goal": {"show": [show], "flow": {"x": "1"}}})
+    assert (found.left, found.right) == sides
+
+
 def test_numbers_that_differ_are_not_told_to_be_equal():
     """Both are 0.003784 to four digits, and a reader was told that they are the same."""
     found = counterexample_of({"verdict": "violated", "point": {"a": "3784111/1000000000", "b": "3784073/1000000000"},

@@ -17,11 +17,11 @@ from workbench.files.regular import contents, sha256_of
 from workbench.files.writing import as_bytes
 from workbench.proof import checker, names
 from workbench.proof.latex import letters
-from workbench.report import certificate_latex, counterexample, kept, number_style
+from workbench.report import certificate_latex, counterexample, kept, number_style, side_values
 from workbench.report.counterexample import Counterexample, counterexample_of
 from workbench.report.kept import Other, kept_and_broken
 
-READERS = (checker, names, letters, certificate_latex, number_style, counterexample, kept)
+READERS = (checker, names, letters, certificate_latex, number_style, side_values, counterexample, kept)
 READERS_KEPT = 4
 
 

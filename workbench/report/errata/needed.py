@@ -24,15 +24,16 @@ def needed(needs: Sequence[Need]) -> list[Block]:
     used = [need for need in needs[1:] if need not in plain]
     if sum(len(text) for need in used for text in (need.statement, *need.conditions, *need.rates)) > MOST:
         names = worded(listed([f"“{need.title}”" for need in used]))
-        return [*blocks, Paragraph(f"{names}, as part of the statement: what each says, under which conditions and along "
-                                   "which motion, is written out with the proofs below.", "Its proof uses")]
+        return [*blocks, Paragraph(f"{names}, as part of the statement: what each says, under which conditions and "
+                                   "along which motion, is written out with the proofs below.", "Its proof uses")]
     if used:
         blocks.append(Paragraph("these lines; a condition that one of them shows is met.", "Its proof uses"))
     for need in used:
         blocks += [Paragraph(f"{worded(place_of(need.equation, need.title))}, which is:", "It uses"),
                    Formula(need.statement), *_conditions(need)]
     names = worded(listed([place_of(need.equation, need.title) for need in plain]))
-    return [*blocks, *([Paragraph(f"{names}, under no conditions but the signs of letters.", "It uses")] if plain else [])]
+    last = Paragraph(f"{names}, under no conditions but the signs of letters.", "It uses")
+    return [*blocks, *([last] if plain else [])]
 
 
 def _conditions(need: Need) -> list[Block]:
