@@ -78,6 +78,24 @@ def test_a_headline_whose_own_way_fails_says_it_too():
     assert "holds where x >= 1 (1), which it does not state, but not by the way of the text" in last.fate.why
 
 
+def test_what_holds_by_definition_is_no_condition():
+    """An integral of squares is not negative, and the least of two numbers is at most each; what is only assumed of a
+    letter that is neither is told."""
+    paper, c, a, big = Paper("p2030", "none"), *sp.symbols("c a Z", real=True)
+
+    def stated(equation, printed, goal, premises=(), severity="step"):
+        paper.claim(equation, "A line", "inequality", printed, "proved", premises=premises, severity=severity)(
+            lambda: goal() if callable(goal) else goal)
+
+    stated("least", r"c = \min(a, b),\ c^2 \ge 0", Goal((at_least(c**2, 0),)))
+    stated("square", "Z", lambda: Goal((at_least(big, 0),), flow={big: x**2}, inputs=(x,), initial={big: sp.S.Zero},
+                                       decreasing=-big))
+    stated("1", "x", Goal((at_most(c + y, a + y),), (at_most(c, a), at_least(big, 0), at_least(y, 0))))
+    stated("2", "x", lambda: Goal((at_most(c + y, a + y + big**2),), paper.shown("1")), ("1",), "result")
+    last = decide_all(paper.claims)[-1]
+    assert last.besides == ("y >= 0 (1)",)
+
+
 @pytest.mark.parametrize("name", AS_WIDE)
 def test_nothing_is_said_where_a_premise_assumes_no_more(name):
     last = judged(*AS_WIDE[name])[-1]

@@ -32,6 +32,15 @@ def test_it_stands_with_corrections_when_its_own_proof_avoids_the_step_that_fail
     assert "(1)" in found.why
 
 
+@pytest.mark.parametrize(("count", "told"), [(1, "uses equation (1), which fails"), (2, "(1) and (2), which fail"),
+                                             (6, "uses 6 lines that fail")])
+def test_the_lines_that_its_text_uses_are_named_where_they_are_few(count, told):
+    names = tuple(str(n) for n in range(1, count + 1))
+    found = fate(*(decided(name, "refuted") for name in names),
+                 decided("T", "proved", severity="result", premises=(), rests_on=names))
+    assert found.why.startswith("holds, but not by the way of the text, which uses ") and found.why.endswith(told)
+
+
 def test_it_is_open_when_its_proof_uses_a_line_that_fails():
     found = fate(decided("1", "gap"), decided("2", "proved", premises=("1",)),
                  decided("T", "proved", severity="result", premises=("2",)))

@@ -111,7 +111,9 @@ def test_the_lines_of_code_and_of_cases_stand_below_each_other_in_the_pdf():
     source = typst_source(errata(paper(), "J. Doe"))
     assert r'"workbench prove doe2026 --write" + "\n" + "workbench errata doe2026"' in source
     rows = changed("4", {"printed": r"x = \begin{cases} a, & b \\ c, & d \end{cases}"})
-    assert re.search(r"mat\(delim: #none, align: #left, [^;]*a[^;]*; [^;]*c", typst_source(errata(rows, "J. Doe")))
+    assert re.search(r"cases\(a [^&]*& b *, c [^&]*& d *\)", typst_source(errata(rows, "J. Doe")))
+    rows = changed("4", {"printed": r"x = \begin{pmatrix} a & b \\ c & d \end{pmatrix}"})
+    assert "mat(delim: #none, align: #left, a, b; c, d)" in typst_source(errata(rows, "J. Doe"))
 
 
 @pytest.mark.parametrize("folder", sorted(path.parent.name for path in PROOFS.glob("*/certificates")))

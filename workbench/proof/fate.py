@@ -11,6 +11,8 @@ from workbench.proof.premises import holds_in_other_reading, proved_under, with_
 from workbench.proof.verdict import Decision, Fate
 from workbench.proof.wording import listed
 
+NAMED = 5  # lines that fail up to which all are named
+
 
 def is_headline(decision: Decision) -> bool:
     """Whether a claim is a theorem or headline statement that the paper prints."""
@@ -53,9 +55,8 @@ def _fate(decision: Decision, by_id: dict[str, Decision], mended: Decision | Non
         if not failing:
             return Fate("stands", f"{where} and so does every line that the paper uses to get there",
                         tuple(decision.tainted_by))
-        fail = "fails" if len(failing) == 1 else "fail"
-        return Fate("stands with corrections", f"{where} but not by the way of the text, which uses "
-                    f"{_named(failing, by_id)}, which {fail}", failing)
+        titles = {by_id[name].claim.equation: by_id[name].claim.title for name in failing}
+        return Fate("stands with corrections", f"{where} but not by the way of the text, {which_uses(titles)}", failing)
     if mended is not None:
         return Fate("stands with corrections", f"{_shortfall(decision, unshown, by_id)}; it {form}", by)
     return Fate("open", _shortfall(decision, unshown, by_id), unshown)
@@ -72,6 +73,13 @@ def _shortfall(decision: Decision, unshown: tuple[str, ...], by_id: Mapping[str,
 
 def _how(decision: Decision) -> str:
     return "an exact motion" if (decision.certificate or {}).get("functions") else "a counterexample"
+
+
+def which_uses(titles: Mapping[str, str]) -> str:
+    """Which lines that fail a text uses, named where they are few; titles: what they say, by equation."""
+    if len(titles) > NAMED:
+        return f"which uses {len(titles)} lines that fail"
+    return f"which uses {listed(places_of(list(titles), titles))}, which {'fails' if len(titles) == 1 else 'fail'}"
 
 
 def _named(claim_ids: Sequence[str], by_id: Mapping[str, Decision]) -> str:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
+from workbench.proof.fate import NAMED, which_uses
 from workbench.proof.places import place_of, places_of, subject_of, whole_of
 from workbench.proof.wording import listed
 from workbench.report.counterexample import Counterexample
@@ -20,7 +21,6 @@ HEADINGS: dict[Gravity, str] = {
 
 
 PRINTED, IMPLIED = "Printed", "Implied, not printed"
-NAMED = 5  # lines that fail on the way up to which all are named
 NUMBERS = 7  # values up to which those of letters in what is given are named too
 SHORT = 70  # characters of LaTeX up to which a relation is repeated beside its numbers
 CONDITIONS = 400  # characters of LaTeX up to which what a true statement needs stands in a sentence
@@ -39,9 +39,8 @@ def short_verdict(found: Finding) -> str:
     name = worded(found.place)
     if found.verdict == "proved":
         if found.gravity == "corrected" and found.mended_by not in found.fate_by:
-            fail = "fails" if len(found.fate_by) == 1 else "fail"
-            return (f"{name} holds, but not by the way of the text, which uses {_named(found, found.fate_by)}, which "
-                    f"{fail}")
+            uses = worded(which_uses({equation: found.titles[equation] for equation in found.fate_by}))
+            return f"{name} holds, but not by the way of the text, {uses}"
         lines = f", {_named(found, found.fate_by)}" if found.gravity != "corrected" else ""
         return f"{name} is shown only from lines that are not shown{lines}"
     if found.origin == "implied":

@@ -24,10 +24,10 @@ def needed(needs: Sequence[Need]) -> list[Block]:
     used = [need for need in needs[1:] if need not in plain]
     if sum(len(text) for need in used for text in (need.statement, *need.conditions, *need.rates)) > MOST:
         names = worded(listed([f"“{need.title}”" for need in used]))
-        return [*blocks, Paragraph(f"{names}, as part of the statement: what each says, under which conditions and "
-                                   "along which motion, is written out with the proofs below.", "Its proof uses")]
+        return [*blocks, Paragraph(f"{names}, which are part of the statement: what each says, under which conditions "
+                                   "and along which motion, is written out with the proofs below.", "Its proof uses")]
     if used:
-        blocks.append(Paragraph("these lines; a condition that one of them shows is met.", "Its proof uses"))
+        blocks.append(Paragraph("The lines below; a condition that one of them shows is met.", "Its proof uses"))
     for need in used:
         blocks += [Paragraph(f"{worded(place_of(need.equation, need.title))}, which is:", "It uses"),
                    Formula(need.statement), *_conditions(need)]

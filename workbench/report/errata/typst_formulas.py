@@ -57,7 +57,11 @@ def _row(parts: list[ElementTree.Element], display: bool) -> str:
     """Pieces one after the other; brackets that do not close in the row are signs of their own."""
     signs = [part.text or "" for part in parts if part.tag == "mo"]
     balanced = sum(s in OPENING for s in signs) == sum(s in CLOSING for s in signs)
-    return " ".join(_sign(part.text or "", balanced) if part.tag == "mo" else _piece(part, display) for part in parts)
+    told = [_sign(part.text or "", balanced) if part.tag == "mo" else _piece(part, display) for part in parts]
+    for i, part in enumerate(parts[1:], 1):
+        if part.tag == "mtable" and (parts[i - 1].text or "") == "{":  # one brace that is as high as its cases
+            told[i - 1:i + 1] = ["", f"cases({', '.join(' & '.join(map(_inner, row)) for row in part)})"]
+    return " ".join(filter(None, told))
 
 
 def _sign(text: str, balanced: bool) -> str:
