@@ -52,6 +52,8 @@ def test_a_mended_form_says_what_the_lines_say_that_its_proof_uses():
         return text[text.index("### 2. Theorem 1"):text.index("**Finding.** Theorem 1")]
 
     assert "**Also used.** Lemma 2.\n" in below(rows)
+    beyond = [replace(d, besides=("m >= 1 (lemma2)",)) if d.claim.mends else d for d in rows]
+    assert "**Also used.** Lemma 2 with $m \\ge 1$.\n" in below(beyond)
     assert "**It uses.** Equation (7) “the line 7.glyph”, under no conditions but the signs of letters." in below(rows)
     # What it assumes belongs to the statement.
     more = [replace(d, certificate=d.certificate | {"goal": d.certificate["goal"] | {"assume": ["z_1 <= 5"]}})

@@ -7,12 +7,14 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from workbench.proof.besides import RATES
 from workbench.proof.checker import calls
 from workbench.proof.places import place_of
 from workbench.proof.verdict import Decision
+from workbench.proof.wording import listed
 from workbench.report.certificate_latex import SIGNS, expression_latex, name_latex, rate_latex, relation_latex
 from workbench.report.dots import only_names
-from workbench.report.letters import letters_of
+from workbench.report.letters import Letters, letters_of
 
 Goal = Mapping[str, Any]
 _SIGN = re.compile(r"([A-Za-z_]\w*) (>=?|!=) 0")
@@ -24,8 +26,8 @@ class Need:
 
     equation: of the line that says it, empty for the corrected statement itself; title: what that is called; statement:
     what it says; conditions: what is assumed, without what the lines show that it uses; rates: the motion along which
-    it holds, of the letters whose rates matter; uses: the paper's own lines that its proof uses; letters: what those
-    letters are that the paper does not have.
+    it holds, of the letters whose rates matter; uses: the paper's own lines that its proof uses, each with what it
+    assumes beyond that; letters: what those letters are that the paper does not have.
     """
 
     equation: str
@@ -69,10 +71,19 @@ def _need(d: Decision, goal: Goal, equation: str, statement: str, by_id: Mapping
     letters = letters_of(d)
     conditions = tuple(map(letters.in_formula, conditions_of(goal, shown)))
     rates = tuple(rate for rate in map(letters.in_formula, motion_of(goal)) if not only_names(rate))
-    uses = tuple(place_of(found.claim.equation, found.claim.title) for name in d.claim.premises
+    uses = tuple(_with_its_own(found, d, letters) for name in d.claim.premises
                  if (found := by_id.get(name)) is not None and found.claim.origin != "ours")
     return Need(equation, d.claim.title if equation else "", statement, conditions, rates, uses,
                 letters.legend((*conditions, *rates)))
+
+
+def _with_its_own(used: Decision, d: Decision, letters: Letters) -> str:
+    """A line of the paper that a proof uses, and what that assumes beyond the proof's own conditions."""
+    where = f" ({used.claim.equation})"
+    own = [text.removesuffix(where) for text in d.besides if text.endswith(where)]
+    told = [f"${letters.in_formula(relation_latex(text))}$" for text in own if not text.startswith(RATES)]
+    told += ["its rates" for text in own if text.startswith(RATES)]
+    return place_of(used.claim.equation, used.claim.title) + (f" with {listed(told)}" if told else "")
 
 
 def conditions_of(goal: Goal, shown: Collection[str] = ()) -> list[str]:

@@ -60,7 +60,8 @@ def _row(parts: list[ElementTree.Element], display: bool) -> str:
     told = [_sign(part.text or "", balanced) if part.tag == "mo" else _piece(part, display) for part in parts]
     for i, part in enumerate(parts[1:], 1):
         if part.tag == "mtable" and (parts[i - 1].text or "") == "{":  # one brace that is as high as its cases
-            told[i - 1:i + 1] = ["", f"cases({', '.join(' & '.join(map(_inner, row)) for row in part)})"]
+            cases = f"cases({', '.join(' & '.join(map(_inner, row)) for row in part)})"
+            told[i - 1:i + 1] = ["", f"display({cases})" if display else cases]
     return " ".join(filter(None, told))
 
 
