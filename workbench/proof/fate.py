@@ -53,7 +53,7 @@ def _fate(decision: Decision, by_id: dict[str, Decision], mended: Decision | Non
         failing = tuple(line for line in decision.tainted_by if not holds_in_other_reading(by_id[line], by_id))
         where = f"holds where {listed(decision.besides)}, which it does not state," if decision.besides else "holds,"
         if not failing:
-            return Fate("stands", f"{where} and so does every line that the paper uses to get there",
+            return Fate("stands", f"{where} and no line that the text uses to get there fails",
                         tuple(decision.tainted_by))
         titles = {by_id[name].claim.equation: by_id[name].claim.title for name in failing}
         return Fate("stands with corrections", f"{where} but not by the way of the text, {which_uses(titles)}", failing)
