@@ -60,6 +60,8 @@ def test_a_mended_form_says_what_the_lines_say_that_its_proof_uses():
             if d.claim.equation == "7.glyph" else d for d in rows]
     assert "**It uses.** Equation (7) “the line 7.glyph”, which is:\n\n$$\nz_1^2 \\ge 0\n$$" in below(more)
     assert "$$\nz_{1} \\le 5\n$$" in below(more)
+    theorem = next(f for f in findings(more) if f.equation == "theorem1")
+    assert "Under which conditions that is proved, workbench errata doe2026 writes out." in sentences(theorem)
 
 
 def test_an_assumption_is_not_met_and_what_is_implied_does_not_hold():

@@ -118,14 +118,17 @@ def correction_sentence(found: Finding) -> str:
 
 
 def needs_sentence(found: Finding) -> str:
-    """For what the nearest true statement is proved; empty where that says nothing or is too long for a sentence."""
+    """For what the nearest true statement is proved, or where that is written out; empty where that is nothing."""
     if not found.needs:
         return ""
     need = found.needs[0]
     told = {"": need.conditions, "along ": need.rates}
     parts = [f"{word}{', '.join(map(math, formulas))}" for word, formulas in told.items() if formulas]
     text = f"That is proved for {', '.join(parts)}."
-    return text if parts and len(text) <= CONDITIONS else ""
+    more = any(one.conditions or one.rates for one in found.needs[1:])
+    if more or len(text) > CONDITIONS:
+        return f"Under which conditions that is proved, workbench errata {found.paper} writes out."
+    return text if parts else ""
 
 
 def condition_sentence(found: Finding) -> str:
