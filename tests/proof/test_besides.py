@@ -4,7 +4,7 @@ import pytest
 import sympy as sp
 
 from workbench.errors import ClaimError
-from workbench.proof.claim import D, Goal, at_least, at_most, greater
+from workbench.proof.claim import D, Goal, at_least, at_most, equal, greater
 from workbench.proof.decide.engine import decide_all
 from workbench.proof.paper import Paper
 
@@ -64,7 +64,7 @@ def test_what_a_premise_assumes_is_said_of_what_uses_it(name):
     last = judged(*builders)[-1]
     assert last.besides == taken
     assert last.fate.word == "stands"
-    assert f"proved where {taken[0]}, which it does not state" in last.fate.why
+    assert f"holds where {taken[0]}, which it does not state" in last.fate.why
 
 
 def test_a_headline_whose_own_way_fails_says_it_too():
@@ -75,14 +75,34 @@ def test_a_headline_whose_own_way_fails_says_it_too():
         lambda: everywhere(paper.shown("1")))
     last = decide_all(paper.claims)[-1]
     assert last.fate.word == "stands with corrections"
-    assert "proved as a whole where x >= 1 (1), which it does not state, though the paper's way" in last.fate.why
+    assert "holds where x >= 1 (1), which it does not state, but not by the way of the text" in last.fate.why
+
+
+def test_what_holds_by_definition_is_no_condition():
+    """An integral of squares is not negative, and the least of two numbers is at most each; what is only assumed of a
+    letter that is neither is told."""
+    paper, c, a, big, V = Paper("p2030", "none"), *sp.symbols("c a Z V", real=True)
+
+    def stated(equation, printed, goal, premises=(), severity="step"):
+        paper.claim(equation, "A line", "inequality", printed, "proved", premises=premises, severity=severity)(
+            lambda: goal() if callable(goal) else goal)
+
+    stated("least", r"c = \min(a, b),\ c^2 \ge 0", Goal((at_least(c**2, 0),)))
+    stated("square", "Z", lambda: Goal((at_least(big, 0),), flow={big: x**2}, inputs=(x,), initial={big: sp.S.Zero},
+                                       decreasing=-big))
+    stated("defined", "V", Goal((at_least(V, 0),), (equal(V, x**2 + z_declared * x**2), greater(z_declared, 0))))
+    stated("1", "x", Goal((at_most(c + y, a + y),), (at_most(c, a), at_least(big, 0), at_least(V, 0), at_least(y, 0))),
+           ("square",))
+    stated("2", "x", lambda: Goal((at_most(c + y, a + y + big**2 + V**2),), paper.shown("1")), ("1",), "result")
+    last = decide_all(paper.claims)[-1]
+    assert last.besides == ("y >= 0 (1)",)
 
 
 @pytest.mark.parametrize("name", AS_WIDE)
 def test_nothing_is_said_where_a_premise_assumes_no_more(name):
     last = judged(*AS_WIDE[name])[-1]
     assert last.besides == ()
-    assert last.fate.why == "proved, and no line that the paper uses to get there fails"
+    assert last.fate.why == "holds, and no line that the text uses to get there fails"
 
 
 def test_a_claim_names_what_it_takes():

@@ -32,6 +32,15 @@ def test_it_stands_with_corrections_when_its_own_proof_avoids_the_step_that_fail
     assert "(1)" in found.why
 
 
+@pytest.mark.parametrize(("count", "told"), [(1, "uses equation (1), which fails"), (2, "(1) and (2), which fail"),
+                                             (6, "uses 6 lines that fail")])
+def test_the_lines_that_its_text_uses_are_named_where_they_are_few(count, told):
+    names = tuple(str(n) for n in range(1, count + 1))
+    found = fate(*(decided(name, "refuted") for name in names),
+                 decided("T", "proved", severity="result", premises=(), rests_on=names))
+    assert found.why.startswith("holds, but not by the way of the text, which uses ") and found.why.endswith(told)
+
+
 def test_it_is_open_when_its_proof_uses_a_line_that_fails():
     found = fate(decided("1", "gap"), decided("2", "proved", premises=("1",)),
                  decided("T", "proved", severity="result", premises=("2",)))
@@ -60,7 +69,7 @@ def test_what_is_refuted_falls_and_says_by_what(functions, how):
     assert how in fate(theorem).why
     mended = decided("T.mended", "proved", origin="ours", mends="T")
     assert fate(theorem, mended).word == "falls"
-    assert f"its mended form is proved, “{mended.claim.title}”" in fate(theorem, mended).why
+    assert f"it holds in a mended form, “{mended.claim.title}”" in fate(theorem, mended).why
     assert fate(theorem, mended).by == (mended.claim.id,)
 
 
@@ -71,7 +80,7 @@ def test_a_line_with_an_unclear_glyph_taints_and_costs_a_theorem_nothing_where_i
                            decided("T", "proved", severity="result", premises=(), rests_on=("1",))])
         assert rows[2].tainted_by == ("p2020:1",)
         assert fate(*rows).word == word
-        assert ("other reading" in fate(*rows).why) is (other == "proved")
+        assert ("(1)" in fate(*rows).why) is (other == "refuted")  # the paper is not charged with a lost sign
     rows = (decided("T", "refuted", severity="result", glyph="T.glyph"),
             decided("T.glyph", "proved", origin="ours", glyph="T"))
     assert fate(*rows).word == "open"

@@ -36,7 +36,7 @@ def paper():
          certificate("doe2026:4", "refuted", "z_1**2 >= 1", {"z_1": "1/2"}), r"z_1^2 \ge 0"),
         (stated("theorem1", r"\text{all of it is } z_1^2 \ge 2", "refuted", severity="result",
                 rests_on=("doe2026:4",)),
-         certificate("doe2026:theorem1", "refuted", "z_1**2 >= 2", {"z_1": "1"}), None),
+         certificate("doe2026:theorem1", "refuted", "z_1**2 >= 2", {"z_1": "1/2"}), None),
         (stated("theorem1.mended", r"z_1^2 \ge 0", "proved", origin="ours", mends="doe2026:theorem1"),
          proof("doe2026:theorem1.mended", "z_1**2 >= 0", SQUARE, {"z_1": "0"}), None),
         (stated("5", "z_1 = 0", "refuted", severity="cosmetic"),

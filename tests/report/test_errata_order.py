@@ -30,4 +30,4 @@ def test_rates_stand_in_one_order_whether_searched_or_checked_again():
     again = decided_by(claim, {name: kept[name] for name in PARTS if name in kept} | {"version": 1})
     assert again is not None and list(found.certificate["goal"]["flow"]) == ["a", "z"]
     cold, warm = (errata_texts(judged([decision]), paper.citation) for decision in (found, again))
-    assert cold == warm and r"\frac{d}{dt} a" in cold["errata.md"]
+    assert cold == warm and r"\dot{a}" in cold["errata.md"]

@@ -41,14 +41,15 @@ def test_a_finding_says_where_what_is_true_instead_and_what_falls_with_it():
     step = found_by_equation()["4"]
     assert step.place == "Equation (4)" and step.section == "3" and step.headlines == ("theorem1",)
     text = " ".join(show(s, plain_formula) for s in sentences(step))
-    assert text == ("Equation (4) is false as printed: with z₁ = 0.5, z₁² ≥ 1 would say 0.25 ≥ 1. Printed: z₁² ≥ 1. "
-                    "It should read z₁² ≥ 0. Theorem 1 rests on it.")
+    assert text == ("Equation (4) is false as printed: with z₁ = 0.5, the left side of z₁² ≥ 1 is 0.25 and the right "
+                    "side 1. "
+                    "Printed: z₁² ≥ 1. It should read z₁² ≥ 0. Theorem 1 rests on it.")
 
 
 def test_a_theorem_that_falls_names_its_mended_form_and_why():
     theorem = found_by_equation()["theorem1"]
     assert theorem.mended_by == "theorem1.mended" and theorem.because == ("4",)
-    assert consequence_sentence(theorem) == "The paper gets there by equation (4), which fails."
+    assert consequence_sentence(theorem) == "In the text it rests on equation (4), which fails."
     assert "Mended, it is proved: $z_1^2 \\ge 0$." in sentences(theorem)
 
 
@@ -56,7 +57,8 @@ def test_a_step_that_is_taken_without_words_is_not_called_printed():
     rows = [replace(d, claim=replace(d.claim, origin="implied")) if d.claim.equation == "4" else d for d in paper()]
     step, document = next(f for f in findings(rows) if f.equation == "4"), findings_document(findings(rows))
     told = " ".join(sentences(step))
-    assert told.startswith("Equation (4) is false: with") and "Implied, not printed: $z_1^2 \\ge 1$." in told
+    assert told.startswith("What the text implies at equation (4), “the line 4”, does not hold: with")
+    assert "Implied, not printed: $z_1^2 \\ge 1$." in told
     assert "rinted:" not in told.replace("Implied, not printed:", "")
     views = {view.place: view.label for group in finding_groups(document) for view in group.findings}
     assert views.pop("Equation (4)") == "Implied, not printed" and set(views.values()) == {"Printed"}
@@ -79,11 +81,11 @@ def test_of_many_lines_on_the_way_those_are_named_that_rest_on_no_other():
 
     rows = judged([line("1"), line("2"), *(line(str(n), "1", str(n - 1)) for n in range(3, 8))])
     found = {f.equation: consequence_sentence(f) for f in findings(rows)}
-    assert found["5"].endswith("gets there by equations (1), (2), (3) and (4), which fail.")
+    assert found["5"].endswith("it rests on equations (1), (2), (3) and (4), which fail.")
     one = judged([line("1"), *(line(str(n), str(n - 1)) for n in range(2, 8))])
-    assert consequence_sentence(findings(one)[-1]).endswith("(1), which fails, and by 5 more that fail and rest on it.")
-    assert found["7"] == ("The paper gets there by equations (1) and (2), which fail, and by 4 more that fail and rest "
-                          "on these.")
+    assert consequence_sentence(findings(one)[-1]).endswith("(1), which fails, and on 5 more that fail and rest on it.")
+    assert found["7"] == ("In the text it rests on equations (1) and (2), which fail, and on 4 more that fail and "
+                          "rest on these.")
 
 
 def test_what_rests_on_a_line_is_computed_not_typed():
@@ -152,7 +154,7 @@ def test_a_motion_is_told_as_functions_of_time():
             "eventually": "t"}
     point = counterexample_of({"verdict": "refuted", "goal": goal, "functions": {"x": "2 + t"}, "point": {}})
     assert point.motion and point.left == "2 + t" and point.right == "1" and point.values == ("x = 2 + t",)
-    assert breaks_at(point).endswith("would say $2 + t \\le 1$")
+    assert breaks_at(point).endswith("but the left side of $x \\le 1$ is $2 + t$ and the right side $1$")
     goal["show"] = ["x <= t"]
     point = counterexample_of({"verdict": "refuted", "goal": goal, "functions": {"x": "2 + t"}, "point": {}})
     assert breaks_at(point).endswith("$x$ stays greater than the time itself, so that it is not bounded")
@@ -194,8 +196,7 @@ def test_what_holds_in_its_other_reading_is_not_told_to_fail_as_printed():
     both = replace(own["4"], claim=replace(own["4"].claim, rests_on=("doe2026:7", "doe2026:lemma2")))
     rows = {f.equation: f for f in findings(judged([both if d is own["4"] else d for d in own.values()]))}
     assert rows["4"].because == ("7",) and rows["4"].otherwise == ("7",)
-    assert consequence_sentence(rows["4"]).endswith(
-        "The paper gets there by equation (7), which fails as extracted and holds in its other reading.")
+    assert consequence_sentence(rows["4"]) == "Theorem 1 rests on it."  # the paper is not charged with it
 
 
 def test_a_line_whose_name_says_its_section_is_not_told_another():
@@ -219,20 +220,31 @@ def test_a_theorem_names_only_lines_that_fail_on_the_way_to_it():
     chain = replace(own["lemma2"], claim=replace(own["lemma2"].claim, rests_on=("doe2026:4", "doe2026:7")))
     found = {f.equation: f for f in findings(judged([chain if d is own["lemma2"] else d for d in own.values()]))}
     assert found["lemma2"].because == ("4", "7")
-    assert verdict_sentence(found["lemma2"]) == "Lemma 2 holds, but the paper's way there fails at equation (4)."
+    assert verdict_sentence(found["lemma2"]) == (
+        "Lemma 2 holds, but not by the way of the text, which uses equation (4), which fails.")
 
 
 @pytest.mark.parametrize(("point", "show", "shown"), [
-    ({"x": "-1/4", "y": "1/3"}, "x*y >= 0", "with $x = -\\frac{1}{4}$, $y = \\frac{1}{3}$, $x y \\ge 0$ would say "
-     "$-\\frac{1}{12} \\ge 0$"),
-    ({"x": "-1/4", "y": "3/8"}, "x*y >= 0", "with $x = -0.25$, $y = 0.375$, $x y \\ge 0$ would say $-0.09375 \\ge 0$"),
-    ({"x": "-1/4", "y": "1/2"}, "x >= y/3", "with $x = -\\frac{1}{4}$, $y = \\frac{1}{2}$, $x \\ge \\frac{y}{3}$ would "
-     "say $-\\frac{1}{4} \\ge \\frac{1}{6}$"),
-    ({"x": "-1/4"}, "x >= 3/10", "with $x = -0.25$, $x \\ge 0.3$ would say $-0.25 \\ge 0.3$"),
-    ({"x": "-1/4", "y": "1234567/3"}, "x*y >= 0", "with $x = -0.25$, $y \\approx 4.115 \\times 10^{5}$, $x y \\ge 0$ "
-     "would say $-1.029 \\times 10^{5} \\ge 0$, rounded")])
+    ({"x": "-1/4", "y": "1/3"}, "x*y >= 0", "with $x = -\\frac{1}{4}$, $y = \\frac{1}{3}$, the left side of "
+     "$x y \\ge 0$ is $-\\frac{1}{12}$ and the right side $0$"),
+    ({"x": "-1/4", "y": "3/8"}, "x*y >= 0", "with $x = -0.25$, $y = 0.375$, the left side of $x y \\ge 0$ is "
+     "$-0.09375$ and the right side $0$"),
+    ({"x": "-1/4", "y": "1/2"}, "x >= y/3", "with $x = -\\frac{1}{4}$, $y = \\frac{1}{2}$, the left side of "
+     "$x \\ge \\frac{y}{3}$ is $-\\frac{1}{4}$ and the right side $\\frac{1}{6}$"),
+    ({"x": "-1/4"}, "x >= 3/10", "with $x = -0.25$, the left side of $x \\ge 0.3$ is $-0.25$ and the right "
+     "side $0.3$"),
+    ({"x": "-1/4", "y": "1234567/3"}, "x*y >= 0", "with $x = -0.25$, $y \\approx 4.115 \\times 10^{5}$, the left side "
+     "of $x y \\ge 0$ is $-1.029 \\times 10^{5}$ and the right side $0$, rounded")])
 def test_numbers_of_one_counterexample_are_all_decimals_or_all_fractions(point, show, shown):
     assert breaks_at(counterexample_of(certificate("a:1", "refuted", show, point))) == shown
+
+
+@pytest.mark.parametrize(("show", "sides"), [
+    ("-2*exp(-x) >= 0", (r"-2 e^{-1}", "0")), ("log(x + 1) <= exp(0)/2", (r"\ln\left(2\right)", "0.5")),
+    ("exp(-x) + 1 <= 1", (r"\approx 1.36788", "1")), ("D(exp(-x)) >= 0", ("-e^{-1}", "0"))])
+def test_a_side_that_is_one_exponential_or_logarithm_is_not_rounded(show, sides):
+    found = counterexample_of({"verdict": "refuted", "point": {"x": "1"}, "goal": {"show": [show], "flow": {"x": "1"}}})
+    assert (found.left, found.right) == sides
 
 
 def test_numbers_that_differ_are_not_told_to_be_equal():

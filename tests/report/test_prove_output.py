@@ -48,7 +48,7 @@ def run(*arguments, code=0):
 
 def test_failures_come_first_counts_last_and_nothing_is_cut_or_written(doe):
     lines = run("prove", "doe2026.py", "--workers", "1").stdout.splitlines()
-    assert lines[1].strip().startswith("Theorem 1 (the theorem) stands with corrections")
+    assert lines[1].strip().startswith("Theorem 1 (the theorem) holds, but not by the way of the text")
     failing = next(line for line in lines if line.strip().startswith("doe2026:1 "))
     assert "is false as printed" in failing and "Theorem 1 rests on it." in failing and "…" not in failing
     assert lines[-2].startswith("2 lines of the paper: 1 proved, 1 refuted")

@@ -20,6 +20,7 @@ from workbench.report.finding_sentences import (
     consequence_sentence,
     correction_sentence,
     fate_sentence,
+    needs_sentence,
     printed_sentence,
     reading_sentence,
     verdict_sentence,
@@ -72,7 +73,7 @@ def _finding(found: Finding, verbose: bool) -> Text:
     parts = [verdict_sentence(found)]
     if verbose or found.fate is None:
         parts.append(printed_sentence(found))
-    parts += [correction_sentence(found), condition_sentence(found), reading_sentence(found),
+    parts += [correction_sentence(found), needs_sentence(found), condition_sentence(found), reading_sentence(found),
               consequence_sentence(found)]
     if verbose:
         parts.append(worded(found.note))
@@ -93,14 +94,16 @@ def print_counts(decisions: Sequence[Decision]) -> None:
     by_id = {d.claim.id: d for d in decisions}
     for ours, what in ((False, "line{} of the paper{}"), (True, "question{} of ours")):
         of_them = [d for d in decisions if (d.claim.origin == "ours") == ours]
-        counts, under = Counter(d.verdict for d in of_them), sum(bool(d.proved_under) for d in of_them)
-        papers, total = len({d.claim.paper for d in decisions}), counts.total()
+        charged = [d for d in of_them if d.verdict not in FAILED or not holds_in_other_reading(d, by_id)]
+        counts, under = Counter(d.verdict for d in charged), sum(bool(d.proved_under) for d in of_them)
+        papers, total = len({d.claim.paper for d in decisions}), len(of_them)
         if total:
             line = Text(f"{total} {what.format('' if total == 1 else 's', '' if papers == 1 else 's')}: ")
             line.append_text(Text(", ").join(Text(count_words(v, counts[v], under), COLOURS[v])
                                              for v in VERDICTS if counts[v]))
-            if readings := sum(d.verdict in FAILED and holds_in_other_reading(d, by_id) for d in of_them):
-                line.append(f"; {readings} of those that fail hold{'s' if readings == 1 else ''} in another reading")
+            if readings := total - len(charged):
+                line.append("; one more fails only as extracted and holds in another reading" if readings == 1 else
+                            f"; {readings} more fail only as extracted and hold in another reading")
             if by_kernel := sum(d.trust == "kernel" for d in of_them):
                 certified = sum(d.certificate is not None for d in of_them)
                 all_of_them = "its certificate" if certified == 1 else f"all {certified} certificates"

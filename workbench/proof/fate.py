@@ -11,6 +11,8 @@ from workbench.proof.premises import holds_in_other_reading, proved_under, with_
 from workbench.proof.verdict import Decision, Fate
 from workbench.proof.wording import listed
 
+NAMED = 5  # lines that fail up to which all are named
+
 
 def is_headline(decision: Decision) -> bool:
     """Whether a claim is a theorem or headline statement that the paper prints."""
@@ -40,37 +42,44 @@ def fates(decisions: Sequence[Decision]) -> dict[str, Fate]:
 
 def _fate(decision: Decision, by_id: dict[str, Decision], mended: Decision | None,
           unshown: tuple[str, ...]) -> Fate:
-    instead = f"; its mended form is proved, “{subject_of(mended.claim.title)}”" if mended else ""
+    form = f"holds in a mended form, “{subject_of(mended.claim.title)}”" if mended else ""
+    by = (mended.claim.id,) if mended else ()
     if decision.verdict == "refuted":
         if holds_in_other_reading(decision, by_id):
             other = str(decision.claim.glyph)
             return Fate("open", f"depends on the reading: {_named((other,), by_id)} holds", (other,))
-        return Fate("falls", f"refuted by {_how(decision)}{instead}", (mended.claim.id,) if mended else ())
+        return Fate("falls", f"refuted by {_how(decision)}{f'; it {form}' if form else ''}", by)
     if decision.verdict == "proved" and not unshown:
         failing = tuple(line for line in decision.tainted_by if not holds_in_other_reading(by_id[line], by_id))
-        open_glyphs = tuple(line for line in decision.tainted_by if line not in failing)
-        holds = "holds in its other reading" if len(open_glyphs) == 1 else "hold in their other readings"
-        readings = f"; {_named(open_glyphs, by_id)} on the way {holds}" if open_glyphs else ""
-        where = f" where {listed(decision.besides)}, which it does not state," if decision.besides else ","
+        where = f"holds where {listed(decision.besides)}, which it does not state," if decision.besides else "holds,"
         if not failing:
-            return Fate("stands", f"proved{where} and no line that the paper uses to get there fails{readings}",
-                        open_glyphs)
-        return Fate("stands with corrections", f"proved as a whole{where} though the paper's way there fails at "
-                    f"{_named(failing, by_id)}{readings}", failing)
+            return Fate("stands", f"{where} and no line that the text uses to get there fails",
+                        tuple(decision.tainted_by))
+        titles = {by_id[name].claim.equation: by_id[name].claim.title for name in failing}
+        return Fate("stands with corrections", f"{where} but not by the way of the text, {which_uses(titles)}", failing)
     if mended is not None:
-        return Fate("stands with corrections", f"{_shortfall(decision, unshown, by_id)}{instead}", (mended.claim.id,))
+        return Fate("stands with corrections", f"{_shortfall(decision, unshown, by_id)}; it {form}", by)
     return Fate("open", _shortfall(decision, unshown, by_id), unshown)
 
 
 def _shortfall(decision: Decision, unshown: tuple[str, ...], by_id: Mapping[str, Decision]) -> str:
     if decision.verdict == "proved":
-        return f"proved only under lines that are not shown: {_named(unshown, by_id)}"
-    return {"gap": "does not follow from its premises", "violated": "its conditions fail at the printed numbers",
-            "assumed": "taken as given, its proof was not checked", "undecided": "not decided"}[decision.verdict]
+        one = len(unshown) == 1
+        return (f"is proved only where {_named(unshown, by_id)} {'holds' if one else 'hold'}, which "
+                f"{'is' if one else 'are'} not shown")
+    return {"gap": "does not follow as printed", "violated": "does not hold at the printed numbers",
+            "assumed": "is taken as given, its proof was not checked", "undecided": "is not decided"}[decision.verdict]
 
 
 def _how(decision: Decision) -> str:
     return "an exact motion" if (decision.certificate or {}).get("functions") else "a counterexample"
+
+
+def which_uses(titles: Mapping[str, str]) -> str:
+    """Which lines that fail a text uses, named where they are few; titles: what they say, by equation."""
+    if len(titles) > NAMED:
+        return f"which uses {len(titles)} lines that fail"
+    return f"which uses {listed(places_of(list(titles), titles))}, which {'fails' if len(titles) == 1 else 'fail'}"
 
 
 def _named(claim_ids: Sequence[str], by_id: Mapping[str, Decision]) -> str:

@@ -23,5 +23,6 @@ def _sorted(part: Any) -> Any:
 
 
 def names_in(certificate: Mapping[str, Any] | None) -> frozenset[str]:
-    """The names in the goal of a certificate; those of functions are among them."""
-    return frozenset(_NAME.findall(json.dumps((certificate or {}).get("goal", {}))))
+    """The names in the goal of a certificate and in that of its correction; those of functions are among them."""
+    parts = [(part or {}).get("goal", {}) for part in (certificate, (certificate or {}).get("correction"))]
+    return frozenset(_NAME.findall(json.dumps(parts)))

@@ -39,6 +39,7 @@ from workbench.report.certificate_latex import (
     relation_latex,
 )
 from workbench.report.number_style import Style, style_of, told_apart, value_latex
+from workbench.report.side_values import Enclosed, closed_form, rounded, shown_values
 
 _SIGN = re.compile(r"\w+ (?:>=?|!=) 0")  # the sign of a letter
 _NAME = re.compile(r"[A-Za-z_]\w*")
@@ -97,8 +98,10 @@ def counterexample_of(certificate: Mapping[str, Any]) -> Counterexample | None:
     style = style_of([*(Fraction(text) for row in (certificate["point"], *certificate.get("terms", []))
                         for name, text in row.items() if name not in between),
                       *(low for low, high in sides or () if low == high)])
+    inexact = not between and terms is None and any(low < high for low, high in sides or ())
+    closed = _closed(context, (left, right), point, style) if inexact else ()
     numbers = {name: Fraction(text) for name, text in sorted(certificate["point"].items())}
-    shown = told_apart(numbers, style) | {name: _rounded(numbers[name], 10) for name in between}
+    shown = told_apart(numbers, style) | {name: rounded(numbers[name], 10) for name in between}
     rows = [{name: value_latex(Fraction(text), style) for name, text in sorted(row.items())}
             for row in certificate.get("terms", [])]
     values, others = _grouped({name: value for name, value in shown.items() if name in deciding})
@@ -108,7 +111,7 @@ def counterexample_of(certificate: Mapping[str, Any]) -> Counterexample | None:
         (_indexed(name, i), value) for i, row in enumerate(rows, 1) for name, value in row.items())
     given, along, more = _conditions(goal, failing)
     return Counterexample(relation_latex(failing, style), SIGNS[operator], values + in_sums, others,
-                          *_values(sides, style), every, False,
+                          *shown_values(sides, style, closed), every, False,
                           None if between else _put_in(left, right, certificate["point"], style), None,
                           _telling(given, style),
                           tuple(rate_latex(name, rate, style) for name, rate in along.items()),
@@ -209,9 +212,6 @@ def _enclosed(context: Context, side: str, point: dict[str, Ratio], terms: Terms
     return bounds(numbers, numbers.read(side), dict(between))
 
 
-Enclosed = tuple[Fraction, Fraction]
-
-
 def _sides(context: Context, sides: Sequence[str], point: dict[str, Ratio], terms: Terms | None,
            between: Bounds) -> list[Enclosed] | None:
     """Between which fractions both sides lie at the point; None where they are no numbers."""
@@ -221,25 +221,10 @@ def _sides(context: Context, sides: Sequence[str], point: dict[str, Ratio], term
         return None
 
 
-def _values(found: list[Enclosed] | None, style: Style) -> tuple[str | None, str | None]:
-    """Both sides at the point: exact where they are rational and short, else rounded so far that they differ."""
-    if found is None:
-        return None, None
-    numbers = [(low + high) / 2 for low, high in found]
-    exact = [low == high for low, high in found]
-    for digits in (6, 10, 15):
-        left, right = (value_latex(n, style) if is_exact else _rounded(n, digits)
-                       for n, is_exact in zip(numbers, exact, strict=True))
-        if left.removeprefix(r"\approx ") != right.removeprefix(r"\approx ") or numbers[0] == numbers[1]:
-            break
-        if r"\approx" in left:
-            exact = [False, False]
-    return left, right
-
-
-def _rounded(value: Fraction, digits: int) -> str:
-    mantissa, e, exponent = f"{float(value):.{digits}g}".partition("e")
-    return rf"\approx {mantissa}" + (rf" \times 10^{{{int(exponent)}}}" if e else "")
+def _closed(context: Context, sides: Sequence[str], point: dict[str, Ratio], style: Style) -> list[str | None]:
+    """Both sides where they are one exponential or logarithm of a number."""
+    return [None if calls(side, "Sum") else closed_form(context, at(context, context.read(side), point, None), style)
+            for side in sides]
 
 
 def _coefficients(value: Ratio) -> list[Fraction]:

@@ -1,10 +1,11 @@
-"""Counterexamples as they are shown, kept in the user's cache by their certificates and by what reads these."""
+"""Counterexamples as they are shown, and what they say of other lines, kept in the user's cache by their certificates
+and by what reads these."""
 
 from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import asdict
 from functools import cache
@@ -16,27 +17,46 @@ from workbench.files.regular import contents, sha256_of
 from workbench.files.writing import as_bytes
 from workbench.proof import checker, names
 from workbench.proof.latex import letters
-from workbench.report import certificate_latex, counterexample, number_style
+from workbench.report import certificate_latex, counterexample, kept, number_style, side_values
 from workbench.report.counterexample import Counterexample, counterexample_of
+from workbench.report.kept import Other, kept_and_broken
 
-READERS = (checker, names, letters, certificate_latex, number_style, counterexample)
+READERS = (checker, names, letters, certificate_latex, number_style, side_values, counterexample, kept)
 READERS_KEPT = 4
 
 
 def cached_counterexample(certificate: Mapping[str, Any]) -> Counterexample | None:
     """What breaks the goal of a certificate that shows it false, as `counterexample_of` says it."""
-    folder = _folder()
-    if folder is None or certificate.get("verdict") == "proved":
+    if certificate.get("verdict") == "proved":
         return counterexample_of(certificate)
-    path = folder / f"{_sha256(json.dumps(certificate, sort_keys=True))}.json"
+
+    def found() -> dict[str, Any] | None:
+        point = counterexample_of(certificate)
+        return None if point is None else asdict(point)
+
+    return _made(_remembered(certificate, found))
+
+
+def cached_kept(certificate: Mapping[str, Any], others: Mapping[str, Other]) -> tuple[list[str], list[str]]:
+    """What a counterexample keeps and breaks of other lines, as `kept_and_broken` says it."""
+    asked = [certificate, [[name, other.certificate, other.obeyed] for name, other in others.items()]]
+    keeps, breaks = _remembered(asked, lambda: list(kept_and_broken(certificate, others)))
+    return keeps, breaks
+
+
+def _remembered(asked: object, made: Callable[[], Any]) -> Any:
+    """Plain data that is made of other plain data, from the cache where it lies there whole."""
+    folder = _folder()
+    if folder is None:
+        return made()
+    path = folder / f"{_sha256(json.dumps(asked, sort_keys=True))}.json"
     with suppress(OSError, ValueError, KeyError, TypeError):
         seal, text, rest = contents(path, own=True).decode().split("\n")
         if seal == _sha256(text) and not rest:
-            return _made(json.loads(text))
-    found = counterexample_of(certificate)
-    text = json.dumps(None if found is None else asdict(found))
+            return json.loads(text)
+    text = json.dumps(made())
     keep(path, f"{_sha256(text)}\n{text}\n")
-    return found
+    return json.loads(text)
 
 
 def _made(record: dict[str, Any] | None) -> Counterexample | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -14,7 +14,9 @@ from workbench.proof.verdict import FAILED, Decision, FateWord, Origin, Verdict
 from workbench.report.counterexample import Counterexample
 from workbench.report.counterexample_cache import cached_counterexample
 from workbench.report.letters import letters_of
+from workbench.report.needs import Need, needs_of
 from workbench.report.number_style import alike, upright
+from workbench.report.ways import Way, ways
 
 # What a finding is, the gravest first: a headline statement that falls, that stands only with corrections, that stays
 # open; a line that fails and that others rest on; one that does not follow; one that fails and that nothing rests on;
@@ -32,9 +34,12 @@ class Finding:
     reading: how a person read it; printed, should_read: LaTeX of the line and of the nearest true statement,
     which is proved (empty where none is known); mended_by: the equation of the claim that proves it as a line of its
     own, mended_under: the equations of what that proof uses and that is not shown; counterexample: what breaks it;
-    headlines: the theorems and headline statements that rest on it, lines: how many other lines do; because: the lines
+    headlines: the theorems and headline statements that rest on it, lines: how many other lines do, without those that
+    fail whether it holds or not; because: the lines
     that fail on the way to it, roots: those of them that rest on no other one, otherwise: those of them that hold in
-    their other reading; other_reading: LaTeX of how else it may
+    their other reading, kept and broken: those of them that hold, and that fail, at its own counterexample, causes: of
+    the rest those that rest on no other one of it; alone: whether the line fails by itself; needs: what the true
+    statement and its proof assume; other_reading: LaTeX of how else it may
     be read, other_holds: whether that is proved; digest: that of the goal in its certificate, None without one; titles:
     what the other lines named here say, by equation.
     """
@@ -57,6 +62,11 @@ class Finding:
     because: tuple[str, ...]
     roots: tuple[str, ...]
     otherwise: tuple[str, ...]
+    kept: tuple[str, ...]
+    broken: tuple[str, ...]
+    causes: tuple[str, ...]
+    alone: bool
+    needs: tuple[Need, ...]
     fate: FateWord | None
     fate_by: tuple[str, ...]
     other_reading: str
@@ -80,20 +90,23 @@ def findings(decisions: Sequence[Decision]) -> list[Finding]:
     place = {d.claim.id: i for i, d in enumerate(decisions)}
     alternatives = {d.claim.glyph for d in decisions if d.claim.glyph and place[d.claim.id] < place[d.claim.glyph]}
     mended = {d.claim.mends: d for d in decisions if d.claim.mends and d.verdict == "proved"}
+    on_the_way = ways(decisions)
     found = []
     for d in decisions:
         fails = d.verdict in FAILED or (d.fate is not None and d.fate.word != "stands")
         if d.claim.origin == "ours" or not fails or d.claim.id in alternatives:
             continue
-        found.append(_finding(d, by_id, mended.get(d.claim.id), decisions))
+        found.append(_finding(d, by_id, mended.get(d.claim.id), decisions, on_the_way))
     papers = list(dict.fromkeys(d.claim.paper for d in decisions))
-    return sorted(found, key=lambda f: (papers.index(f.paper), GRAVITIES.index(f.gravity), len(f.because) > 0,
+    return sorted(found, key=lambda f: (papers.index(f.paper), GRAVITIES.index(f.gravity), not f.alone,
                                         -len(f.headlines), place[f"{f.paper}:{f.equation}"]))
 
 
 def _finding(d: Decision, by_id: dict[str, Decision], mended: Decision | None,
-             decisions: Sequence[Decision]) -> Finding:
-    resting = [other for other in decisions if d.claim.id in other.tainted_by and other.claim.origin != "ours"]
+             decisions: Sequence[Decision], on_the_way: Mapping[str, Way]) -> Finding:
+    way = on_the_way.get(d.claim.id, Way())
+    resting = [other for other in decisions if d.claim.id in other.tainted_by and other.claim.origin != "ours"
+               and d.claim.id not in on_the_way.get(other.claim.id, Way()).kept]
     headlines = tuple(other.claim.equation for other in resting if is_headline(other))
     lines = len(resting) - len(headlines)
     holds = holds_in_other_reading(d, by_id)
@@ -107,7 +120,8 @@ def _finding(d: Decision, by_id: dict[str, Decision], mended: Decision | None,
         _equations(mended.proved_under) if mended and not d.correction else (),
         _counterexample(d), headlines, lines,
         _equations(d.tainted_by), _equations(name for name in d.tainted_by if not by_id[name].tainted_by),
-        _equations(name for name in d.tainted_by if holds_in_other_reading(by_id[name], by_id)),
+        _equations(way.otherwise), _equations(way.kept), _equations(way.broken), _equations(way.causes), way.alone,
+        needs_of(d, mended, by_id),
         d.fate.word if d.fate else None,
         _equations(fate_by),
         d.other_reading or "", holds, d.claim.note, goal_digest(d.certificate) if d.certificate else None,

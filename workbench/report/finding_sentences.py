@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
-from workbench.proof.places import place_of, places_of, subject_of
+from workbench.proof.fate import NAMED, which_uses
+from workbench.proof.places import place_of, places_of, subject_of, whole_of
 from workbench.proof.wording import listed
 from workbench.report.counterexample import Counterexample
 from workbench.report.finding import Finding, Gravity
@@ -20,26 +21,34 @@ HEADINGS: dict[Gravity, str] = {
 
 
 PRINTED, IMPLIED = "Printed", "Implied, not printed"
-NAMED = 5  # lines that fail on the way up to which all are named
 NUMBERS = 7  # values up to which those of letters in what is given are named too
 SHORT = 70  # characters of LaTeX up to which a relation is repeated beside its numbers
+CONDITIONS = 400  # characters of LaTeX up to which what a true statement needs stands in a sentence
+APPROX = r"\approx "
+_SMALL = ("Equation", "The ", "Statement")
 
 
 def verdict_sentence(found: Finding) -> str:
     """What is wrong, in one sentence, with the numbers that show it."""
     where = "" if found.counterexample is None else f": {breaks_at(found.counterexample)}"
+    return f"{short_verdict(found)}{where}."
+
+
+def short_verdict(found: Finding) -> str:
+    """What is wrong, in one clause without its numbers."""
     name = worded(found.place)
-    if found.gravity == "corrected":
-        if found.verdict == "proved" and found.mended_by not in found.fate_by:
-            return f"{name} holds, but the paper's way there fails at {_named(found, found.fate_by)}."
-        if found.verdict == "proved":
-            return f"{name} is shown only from lines that are not shown."
-        return f"{name} {_words(found)}{where}."
     if found.verdict == "proved":
-        return f"{name} is shown only from lines that are not shown, {_named(found, found.fate_by)}."
-    if found.verdict == "gap" and found.place.startswith("Assumption"):
-        return f"{name} does not give what the paper takes from it{where}."
-    return f"{name} {_words(found)}{where}."
+        if found.gravity == "corrected" and found.mended_by not in found.fate_by:
+            uses = worded(which_uses({equation: found.titles[equation] for equation in found.fate_by}))
+            return f"{name} holds, but not by the way of the text, {uses}"
+        lines = f", {_named(found, found.fate_by)}" if found.gravity != "corrected" else ""
+        return f"{name} is shown only from lines that are not shown{lines}"
+    if found.origin == "implied":
+        place = worded(whole_of(found.equation, found.title))
+        says = f", “{worded(subject_of(found.title))}”," if subject_of(found.title) not in place else ""
+        place = place[:1].lower() + place[1:] if place.startswith(_SMALL) else place
+        name = f"What the text implies at {place}{says}"
+    return f"{name} {_words(found)}"
 
 
 def _named(found: Finding, equations: Sequence[str]) -> str:
@@ -47,33 +56,55 @@ def _named(found: Finding, equations: Sequence[str]) -> str:
     return worded(listed(places_of(equations, found.titles)))
 
 
+def is_assumption(found: Finding) -> bool:
+    """Whether a line assumes something of a system, which is not false but may not be met."""
+    return found.place.startswith("Assumption")
+
+
 def _words(found: Finding) -> str:
     motion = found.counterexample is not None and found.counterexample.motion
+    by_motion = " by a motion of the printed closed loop"
+    if is_assumption(found):
+        return ({**_verdicts("", ""), "refuted": f"is not met{by_motion if motion else ''}",
+                 "violated": "is not met at the printed numbers", "gap": "does not give what the paper takes from it"}
+                [found.verdict])
     printed = " as extracted" if found.gravity == "reading" else " as printed" if found.origin == "printed" else ""
-    return {"refuted": f"is false{printed}, by a motion of the printed closed loop" if motion else
-            f"is false{printed}", "violated": "is broken by the printed numbers",
-            "gap": "does not follow from what the paper uses to get there", "undecided": "is not decided",
-            "assumed": "is taken as given: its proof was not checked", "proved": "holds"}[found.verdict]
+    return _verdicts(printed, f",{by_motion}" if motion else "")[found.verdict] if found.origin == "printed" or (
+        found.verdict != "refuted") else f"does not hold{f',{by_motion}' if motion else ''}"
+
+
+def _verdicts(printed: str, motion: str) -> dict[str, str]:
+    return {"refuted": f"is false{printed}{motion}", "violated": "is broken by the printed numbers",
+            "gap": "does not follow from what the text uses to get there", "undecided": "is not decided",
+            "assumed": "is taken as given: its proof was not checked", "proved": "holds"}
 
 
 def breaks_at(point: Counterexample) -> str:
     """The numbers put in, and what the line says there."""
     few = not point.motion and point.others is None and len(point.values) + len(point.beside) <= NUMBERS
     named = ", ".join(f"${value}$" for value in (*point.values, *(point.beside if few else ())))
-    others = f"{'and ' if named else ''}{'all other letters' if named else 'all letters'} ${point.others}$"
+    others = f"{'and ' if named else ''}{'all other letters' if named else 'all letters'} equal to ${point.others}$"
     at = " ".join(filter(None, (named, others if point.others is not None else "")))
+    short = len(point.relation) <= SHORT
     if point.unbounded is not None:
         says = f"${point.unbounded}$ stays greater than the time itself, so that it is not bounded"
     elif point.left is None or point.right is None:
-        says = f"{f'${point.relation}$' if len(point.relation) <= SHORT else 'the line'} fails"
+        says = f"{f'${point.relation}$' if short else 'the line'} fails"
     else:
-        line = f"${point.relation}$" if len(point.relation) <= SHORT else "the line"
-        rounded = ", rounded" if r"\approx" in point.left + point.right else ""
-        sides = f"{point.left} {point.operator} {point.right}".replace(r"\approx ", "")
-        says = f"{line} would say ${sides}${rounded}"
+        says = _sides(point, short)
     if point.motion:
-        return f"with {at}, everything assumed holds throughout, but {says}"
+        return f"with {at}, everything assumed holds at all times, but {says}"
     return f"with {at}, {says}" if at else says
+
+
+def _sides(point: Counterexample, short: bool) -> str:
+    """What both sides of a line are."""
+    left, right = (f"${(side or '').removeprefix(APPROX)}$" for side in (point.left, point.right))
+    rounded = ", rounded" if APPROX in f"{point.left}{point.right}" else ""
+    of = f" of ${point.relation}$" if short else ""
+    if left == right:
+        return f"both sides{of} are {left}{rounded}"
+    return f"the left side{of} is {left} and the right side {right}{rounded}"
 
 
 def correction_sentence(found: Finding) -> str:
@@ -86,6 +117,20 @@ def correction_sentence(found: Finding) -> str:
     return _ended(f"{what} {math(found.should_read)}", found.should_read)
 
 
+def needs_sentence(found: Finding) -> str:
+    """For what the nearest true statement is proved, or where that is written out; empty where that is nothing."""
+    if not found.needs:
+        return ""
+    need = found.needs[0]
+    told = {"": need.conditions, "along ": need.rates}
+    parts = [f"{word}{', '.join(map(math, formulas))}" for word, formulas in told.items() if formulas]
+    text = f"That is proved for {', '.join(parts)}."
+    more = any(one.conditions or one.rates for one in found.needs[1:])
+    if more or len(text) > CONDITIONS:
+        return f"Under which conditions that is proved, workbench errata {found.paper} writes out."
+    return text if parts else ""
+
+
 def condition_sentence(found: Finding) -> str:
     """From which lines that are not shown the nearest true statement is proved; empty where it needs none."""
     under = found.mended_under
@@ -96,34 +141,33 @@ def condition_sentence(found: Finding) -> str:
 
 
 def consequence_sentence(found: Finding) -> str:
-    """What rests on the line, and what it rests on that fails; empty where neither is."""
+    """What rests on the line, and on which lines that fail it rests; empty where neither is."""
     resting = [worded(place) for place in places_of(found.headlines, found.titles)]
     if found.lines:
         count = "one" if found.lines == 1 else str(found.lines)
         resting.append(f"{count} {'other ' if resting else ''}line{'s' if found.lines > 1 else ''}")
     one = len(found.headlines) + found.lines == 1
     text = f"{listed(resting)} rest{'s' if one else ''} on it." if resting else ""
-    if found.because and found.gravity != "corrected":
+    if found.gravity != "corrected":
         text = f"{text} {_way(found)}".strip()
     return text[:1].upper() + text[1:]
 
 
 def _way(found: Finding) -> str:
-    """Which lines on the way fail; of many those that rest on no other one of them. One that holds in its other reading
-    is told apart: the paper is not charged with what its extracted text may have lost."""
-    failing = [line for line in found.because if line not in found.otherwise]
-    roots = [line for line in found.roots if line in failing]
-    named = roots if roots and len(failing) > NAMED else failing
+    """On which lines that fail it rests in the text, of many the causes; none of those at which its own counterexample
+    leaves nothing to find fault with, nor of those that hold in their other reading."""
+    failing = [line for line in found.because if line not in {*found.otherwise, *found.kept}]
+    if not failing:
+        kept = [line for line in found.kept if line in found.because]
+        told = found.alone and 0 < len(kept) <= NAMED
+        holds = "holds" if len(kept) == 1 else "hold"
+        return f"It fails by itself: at its counterexample {_named(found, kept)} {holds}." if told else ""
+    named = list(found.causes) if found.causes and len(failing) > NAMED else failing
     others = len(failing) - len(named)
     fail, these = ("fails", "it") if len(named) == 1 else ("fail", "these")
     many = f"{others} more that fail and rest" if others > 1 else "one more that fails and rests"
-    more = f", and by {many} on {these}" if others else ""
-    by = [f"by {_named(found, named)}, which {fail}{more}"] if failing else []
-    if found.otherwise:
-        fail = "fails as extracted and holds in its other reading" if len(found.otherwise) == 1 else (
-            "fail as extracted and hold in their other readings")
-        by.append(f"by {_named(found, found.otherwise)}, which {fail}")
-    return f"The paper gets there {', and '.join(by)}."
+    more = f", and on {many} on {these}" if others else ""
+    return f"In the text it rests on {_named(found, named)}, which {fail}{more}."
 
 
 def reading_sentence(found: Finding) -> str:
@@ -151,7 +195,8 @@ def _ended(sentence: str, formula: str) -> str:
 def sentences(found: Finding) -> list[str]:
     """All that a referee would write of it."""
     return [s for s in (verdict_sentence(found), printed_sentence(found), correction_sentence(found),
-                        condition_sentence(found), reading_sentence(found), consequence_sentence(found)) if s]
+                        needs_sentence(found), condition_sentence(found), reading_sentence(found),
+                        consequence_sentence(found)) if s]
 
 
 def findings_document(found: Sequence[Finding]) -> dict[str, Any]:
@@ -165,4 +210,5 @@ def fate_sentence(equation: str, word: str, why: str, title: str = "") -> str:
     """What becomes of a headline statement, in one sentence; title: what it says, where the reader is to be told."""
     place = place_of(equation, title or None)
     says = f" ({subject_of(title)})" if title and "“" not in place and subject_of(title) != place else ""
-    return f"{place}{says} {'is ' if word == 'open' else ''}{word}: {why}."
+    first = {"falls": "falls: ", "open": "stays open: it "}.get(word, "")
+    return f"{place}{says} {first}{why}."

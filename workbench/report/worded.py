@@ -27,6 +27,9 @@ _GREEK = re.compile(rf"(?<![\w.$\\{{])({_NAMES}|eps)(\*|\^\d)?(?!\w|\.\w)")
 _STARRED = re.compile(r"(?<![\w$\\{*])([A-Za-z])\*(?![\w*])")
 _DERIVED = re.compile(r"(?<![\w$\\{'])([A-Za-z])'(?!\w)")
 _UNIT = re.compile(r"(?<![\w$/])(k?N|m)/(s|m)\^2(?!\w)")
+# A letter or number above the bar of a quotient at the end of words, and one below it at their beginning.
+_ABOVE = re.compile(r"(?<![\w.'^/)\]])([A-Za-z]|\d+)/$")
+_BELOW = re.compile(r"/([A-Za-z]|\d+)(?![\w.'^/(]|-\w)")
 # What a formula is raised to, or its prime, behind it.
 _BEHIND = re.compile(r"\$([^$]*[^$^{}]|[^$]*\})\$(?:\$\{\}(\^\{[^$]*\})\$|('+)(?!\w))")
 _RAISED = re.compile(r"\^(?:\{(-?\w+)\}|\((-?\w+(?:[-+/]\w+)?)\)|(-?\d+|T\b|i\b|[-+](?!\w)))")
@@ -46,7 +49,24 @@ def worded(text: str) -> str:
     text = _outside(text, _STARRED, lambda found: f"${found[1]}^*$")
     text = _outside(text, _DERIVED, lambda found: f"${found[1]}'$")
     text = _outside(text, _RAISED, lambda found: f"${{}}^{{{found[1] or found[2] or found[3]}}}$")
-    return _BEHIND.sub(lambda found: found[0] if "^" in found[1] else f"${found[1]}{found[2] or found[3]}$", text)
+    return _quotients(_BEHIND.sub(
+        lambda found: found[0] if "^" in found[1] else f"${found[1]}{found[2] or found[3]}$", text))
+
+
+def _quotients(text: str) -> str:
+    """The text with a quotient of a formula and a letter or number, l/$\\mu$, as one formula: its bar is no slash
+    between words."""
+    pieces = re.split(r"(\$[^$]*\$)", text)
+    for i in range(1, len(pieces), 2):
+        above, below = _ABOVE.search(pieces[i - 1]), _BELOW.match(pieces[i + 1])
+        if above:
+            pieces[i - 1] = pieces[i - 1][:above.start()]
+            pieces[i] = f"${above[1]}/{pieces[i][1:]}"
+        if below:
+            pieces[i + 1] = pieces[i + 1][below.end():]
+            pieces[i] = f"{pieces[i][:-1]}/{below[1]}$"
+    joined = "".join(pieces)
+    return re.sub(r"(?<=[^$])\$/\$(?=[^$])", "/", joined) if "$/$" in joined else joined
 
 
 def _outside(text: str, pattern: re.Pattern[str], formula: Callable[[re.Match[str]], str]) -> str:

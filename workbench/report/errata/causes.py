@@ -1,4 +1,4 @@
-"""Which of the lines that fail are causes: they rest on no other one that fails, and others rest on them."""
+"""Which of the lines that fail are causes: they fail by themselves, and others rest on them."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ def causes_of(found: Sequence[Finding], decisions: Sequence[Decision]) -> list[C
     falls with another one.
     """
     goals = {d.claim.equation: _form(d.certificate) for d in decisions}
-    if not any(f.because for f in found if f.gravity != "reading"):
+    if not any({*f.because} - {*f.otherwise} for f in found if f.gravity != "reading"):
         return []
     groups: dict[object, list[Finding]] = {}
     for f in _numbered(found):
-        if f.verdict in FAILED and not f.because and f.gravity != "cosmetic" and (f.headlines or f.lines):
+        if f.verdict in FAILED and f.alone and f.gravity != "cosmetic" and (f.headlines or f.lines):
             groups.setdefault(goals[f.equation] or f.equation, []).append(f)
     by_weight = sorted(groups.values(), key=lambda group: (-len(group[0].headlines), -group[0].lines))
     return [tuple(group) for group in by_weight]

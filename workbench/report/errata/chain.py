@@ -15,18 +15,22 @@ from workbench.report.worded import worded
 NAMED = 3  # lines up to which each is named
 
 
-def resting_lines(decisions: Sequence[Decision]) -> dict[str, list[str]]:
-    """The equations of the lines that rest on each failing one and are no headline statements, by its equation."""
-    found: dict[str, list[str]] = {}
+def resting_lines(decisions: Sequence[Decision], found: Sequence[Finding]) -> dict[str, list[str]]:
+    """The equations of the lines that rest on each failing one and are no headline statements, by its equation; without
+    those that fail whether it holds or not."""
+    kept = {f.equation: f.kept for f in found}
+    resting: dict[str, list[str]] = {}
     for d in decisions:
         if d.claim.origin != "ours" and not is_headline(d):
             for name in d.tainted_by:
-                found.setdefault(name.partition(":")[2], []).append(d.claim.equation)
-    return found
+                equation = name.partition(":")[2]
+                if equation not in kept.get(d.claim.equation, ()):
+                    resting.setdefault(equation, []).append(d.claim.equation)
+    return resting
 
 
 def consequence(found: Finding, numbers: Mapping[str, int], lines: Sequence[str], titles: Mapping[str, str]) -> str:
-    """What rests on a line and what it rests on that fails; empty where neither is. numbers: of the corrections, by
+    """What rests on a line, and on what that fails it rests; empty where neither is. numbers: of the corrections, by
     equation; lines: those that rest on it and are no headline statements."""
     resting = [worded(place) for place in places_of(found.headlines)]
     about = corrections(found.headlines, numbers)
@@ -38,26 +42,25 @@ def consequence(found: Finding, numbers: Mapping[str, int], lines: Sequence[str]
         resting.append(f"{len(lines)} {'other ' if resting else ''}lines")
     one = len(found.headlines) + len(lines) == 1
     text = f"{listed(resting)} rest{'s' if one else ''} on it." if resting else ""
-    if found.because and found.gravity != "corrected":
+    if found.gravity != "corrected":
         text = f"{text} {_way(found, numbers)}".strip()
     return text[:1].upper() + text[1:]
 
 
 def _way(found: Finding, numbers: Mapping[str, int]) -> str:
-    """The failing lines on the way; what holds in its other reading is told apart."""
-    failing = [line for line in found.because if line not in found.otherwise]
-    by = []
-    if failing and len(failing) <= NAMED:
-        about = corrections(failing, numbers)
-        by.append(f"by {worded(listed(places_of(failing, found.titles)))}{f' ({about})' if about else ''}, which "
-                  f"{'fails' if len(failing) == 1 else 'fail'}")
-    elif failing:
-        by.append(f"by lines that fail ({corrections(failing, numbers)})")
-    if found.otherwise:
-        fail = "fails as extracted and holds in its other reading" if len(found.otherwise) == 1 else (
-            "fail as extracted and hold in their other readings")
-        by.append(f"by {worded(listed(places_of(found.otherwise)))}, which {fail}")
-    return f"The paper gets there {', and '.join(by)}."
+    """On which lines that fail it rests in the text, or that it fails by itself."""
+    failing = [line for line in found.because if line not in {*found.otherwise, *found.kept}]
+    if not failing:
+        kept = corrections(found.kept, numbers)
+        one = len(found.kept) == 1
+        return (f"It fails by itself: at its counterexample what {kept} find{'' if not one else 's'} fault with holds."
+                if found.alone and kept else "")
+    if len(failing) > NAMED:
+        return f"In the text it rests on lines that fail ({corrections(failing, numbers)})."
+    about = corrections(failing, numbers)
+    named = worded(listed(places_of(failing, found.titles)))
+    return (f"In the text it rests on {named}{f' ({about})' if about else ''}, which "
+            f"{'fails' if len(failing) == 1 else 'fail'}.")
 
 
 def corrections(equations: Iterable[str], numbers: Mapping[str, int]) -> str:

@@ -6,22 +6,27 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from workbench.report.certificate_latex import expression_latex, name_latex, rate_latex
+from workbench.report.dots import only_names
 from workbench.report.errata.blocks import Block, Formula, Paragraph
 
 LONGEST = 900  # characters of a formula beyond which its parts stand below each other
 LINE = 150  # characters of LaTeX up to which short formulas share a line
 MOST_GIVEN = 6000  # characters of all conditions beyond which a reader is sent to the certificate
 COMMA = r",\ "
+# What stands in front of conditions, of what holds at all times, of the rates of a motion and of its beginning.
+STATEMENT_CHECKED = "Statement checked"
+UNDER, ALWAYS, ALONG, FIRST, WITH = "Under the conditions", "At all times", "For the motion with", "Starting at", "With"
 
 
 def motion(goal: Mapping[str, Any]) -> dict[str, list[str]]:
     """Where a goal's motion begins and what it obeys, by what stands in front of it, as LaTeX; no more of what stays
     as it is."""
     initial, flow = goal.get("initial", {}), goal.get("flow", {})
-    moving = [name for name in flow if flow[name] != "0" or initial.get(name) != name]
-    return {"At first": [f"{name_latex(name)} = {expression_latex(initial[name])}" for name in initial
+    moving = [name for name in flow if (flow[name] != "0" or initial.get(name) != name) and not only_names(
+        rate_latex(name, flow[name]))]
+    return {FIRST: [f"{name_latex(name)} = {expression_latex(initial[name])}" for name in initial
                          if name in moving],
-            "Along": [rate_latex(name, flow[name]) for name in moving]}
+            ALONG: [rate_latex(name, flow[name]) for name in moving]}
 
 
 def listed_conditions(conditions: Mapping[str, Sequence[str]], beside: Sequence[str] = ()) -> list[Block]:
@@ -35,9 +40,9 @@ def listed_conditions(conditions: Mapping[str, Sequence[str]], beside: Sequence[
         return [Paragraph("What else is assumed holds there too; the certificate spells it out.")]
     if size > LONGEST:
         return [*(Formula(text, "" if i else label) for label, part in parts for i, text in enumerate(_packed(part))),
-                *([Formula(at, "Where")] if at else [])]
+                *([Formula(at, WITH)] if at else [])]
     (first, given), *others = [(label, COMMA.join(part)) for label, part in parts]
-    others += [("Where", at)] if at else []
+    others += [(WITH, at)] if at else []
     return [Formula(given + "".join(rf"\quad\text{{{label.lower()}}}\ {text}" for label, text in others), first)]
 
 

@@ -7,11 +7,15 @@ from collections.abc import Sequence
 
 from workbench.proof.verdict import FAILED, VERDICTS, Decision, Fate, FateWord
 from workbench.proof.wording import listed
-from workbench.report.errata.blocks import Block, Code, Heading, Item, Items, Paragraph
+from workbench.report.errata.blocks import Block, Heading, Item, Items, Paragraph
 from workbench.report.errata.context import Context, context_of
 from workbench.report.errata.corrections import evidence
-from workbench.report.errata.in_short import falls_by, in_short
-from workbench.report.errata.mended import CHECKER, mended_statements
+from workbench.report.errata.in_short import causes_told, in_short
+from workbench.report.errata.letters import with_dots
+from workbench.report.errata.mended import mended_statements
+from workbench.report.errata.rechecking import rechecking
+from workbench.report.errata.referred import lines_referred_to
+from workbench.report.errata.what_holds import what_holds
 from workbench.report.finding import Finding, findings
 from workbench.report.finding_sentences import PRINTED, fate_sentence
 from workbench.report.worded import worded
@@ -27,8 +31,8 @@ say which part of a line is meant."""
 
 
 def errata(decisions: Sequence[Decision], citation: str, at_hand: bool = True) -> list[Block]:
-    """The errata of one paper: fates, causes, what falls with them, the evidence of each numbered correction, open
-    readings, mended statements with their proofs, and how to re-check all of it.
+    """The errata of one paper: fates, causes, what rests on them, what holds, the evidence of each numbered correction,
+    open readings, mended statements with their proofs, the lines that these name, and how to re-check all of it.
 
     All claims of the paper must be among the decisions, as `judged` leaves them; at_hand: whether the lines stand as
     the paper's own text has them.
@@ -36,37 +40,41 @@ def errata(decisions: Sequence[Decision], citation: str, at_hand: bool = True) -
     found = findings(decisions)
     titles = {d.claim.equation: d.claim.title for d in decisions}
     context = context_of(found, decisions, PRINTED if at_hand else COMMON)
-    blocks = [*_fates(decisions, found, context), *in_short(found, context), *evidence(found, context),
-              *mended_statements(decisions, titles)]
+    mended, proofs = mended_statements(decisions, titles)
     failing = any(f.verdict in FAILED for f in found)
-    return [Heading(1, "Corrections" if failing else "Corrections: none"), Paragraph(citation, "Paper"),
+    blocks = [Heading(1, "Corrections" if failing else "Corrections: none"), Paragraph(citation, "Paper"),
             Paragraph(ABOUT if at_hand else f"{ABOUT} {NOT_AT_HAND}"),
-            Paragraph(_counts(decisions, sum(f.gravity == "reading" for f in found), at_hand)), *blocks,
-            *_rechecking(decisions, any(isinstance(block, Code) for block in blocks))]
+            Paragraph(_counts(decisions, [f.equation for f in found if f.gravity == "reading"], at_hand)),
+            *_fates(decisions, found, context), *in_short(found, context), *what_holds(decisions),
+            *evidence(found, context), *mended, *lines_referred_to(decisions, found, proofs),
+            *rechecking(decisions, found, proofs, context.numbers)]
+    return with_dots(blocks)
 
 
-def _counts(decisions: Sequence[Decision], readings: int, at_hand: bool) -> str:
-    counts = Counter(d.verdict for d in decisions if d.claim.origin != "ours")
+def _counts(decisions: Sequence[Decision], readings: Sequence[str], at_hand: bool) -> str:
+    own = [d for d in decisions if d.claim.origin != "ours"]
+    counts = Counter(d.verdict for d in own if d.claim.equation not in readings)
     words = listed([f"{counts[v]} {_verb(v, counts[v])}" for v in VERDICTS if counts[v]])
-    under = sum(bool(d.proved_under) for d in decisions if d.claim.origin != "ours")
+    under = sum(bool(d.proved_under) for d in own)
     only = f", {under} of them only where lines hold that are not shown" if under else ""
-    implied = sum(d.claim.origin == "implied" for d in decisions)
+    implied = sum(d.claim.origin == "implied" for d in own)
     implies = "the text implies and does not print" if at_hand else "the others imply"
     said = f", {implied} of which {implies}" if implied else ""
-    open_ = f" {_open_readings(readings)}" if readings else ""
-    meant = {"proved": f"true for all values of its domain{only}", "refuted": "false",
+    meant = {"proved": f"true for all values of its domain{only}", "refuted": "false, or assumed and not met",
              "violated": "a printed condition that the printed numbers break",
-             "gap": "it does not follow from what the paper uses to get there", "undecided": "not decided",
+             "gap": "it does not follow from what the text uses to get there", "undecided": "not decided",
              "assumed": "a cited result or a definition, taken as given"}
     told = " ".join(f"{verdict.capitalize()}: {meant[verdict]}." for verdict in VERDICTS if counts[verdict])
-    return f"Of {counts.total()} lines{said}, {words}.{open_} {told}"
+    return f"Of {len(own)} lines{said}, {words}{_open_readings(len(readings))}. {told}"
 
 
 def _open_readings(count: int) -> str:
     """How many of the lines that fail are the extracted text's, perhaps, and not the paper's."""
-    if count == 1:
-        return "Of those that fail, one fails only as its text was extracted and holds in another reading."
-    return f"Of those that fail, {count} fail only as their text was extracted and hold in another reading."
+    if not count:
+        return ""
+    return (f"; {'one more fails' if count == 1 else f'{count} more fail'} only as extracted from the page and "
+            f"hold{'s' if count == 1 else ''} in another reading, so that the paper is not charged with "
+            f"{'it' if count == 1 else 'them'}")
 
 
 def _verb(verdict: str, count: int) -> str:
@@ -77,7 +85,7 @@ def _verb(verdict: str, count: int) -> str:
 
 
 def _fates(decisions: Sequence[Decision], found: Sequence[Finding], context: Context) -> list[Block]:
-    """Those that fall first, after how many there are of each, with their corrections and what these fall by."""
+    """Those that fall first, after how many there are of each, with their corrections and what these rest on."""
     told_of = {f.equation: f for f in found}
     fated = [(d.fate, d.claim) for d in decisions if d.fate is not None]
     told = sorted(fated, key=lambda pair: GRAVEST_FIRST.index(pair[0].word))
@@ -94,8 +102,8 @@ def _see(found: Finding | None, fate: Fate, context: Context) -> str:
     number = None if found is None else context.numbers.get(found.equation)
     if found is None or number is None or fate.word == "open":
         return ""
-    by = falls_by(found, context) if context.causes else ""
-    return f" See correction {number}{f'; it falls {by}' if by else ''}."
+    way = causes_told(found, context)
+    return f" See correction {number}{f'; {way}' if way else ''}."
 
 
 def _verb_of(word: FateWord, count: int) -> str:
@@ -103,15 +111,3 @@ def _verb_of(word: FateWord, count: int) -> str:
     if word == "open":
         return "is open" if count == 1 else "are open"
     return word if count == 1 else {"falls": "fall", "stands": "stand"}.get(word, word.replace("stands", "stand"))
-
-
-def _rechecking(decisions: Sequence[Decision], commands: bool) -> list[Block]:
-    paper = decisions[0].claim.paper if decisions else ""
-    return [Heading(2, "How to re-check"),
-            Paragraph("checker.py is one file that imports Python's standard library alone and knows nothing of the "
-                      "programs that found the proofs. With it and the folder of certificates, all of them are "
-                      "re-checked by:"),
-            Code(f"python {CHECKER} certificates"),
-            Paragraph(("Each command above re-checks one, and that it is for the line named. " if commands else "")
-                      + "The workbench writes the certificates and these corrections by:"),
-            Code(f"workbench prove {paper} --write\nworkbench errata {paper}")]

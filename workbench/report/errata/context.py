@@ -10,6 +10,7 @@ from workbench.proof.verdict import Decision
 from workbench.report.errata.blocks import Block, Formula, Paragraph
 from workbench.report.errata.causes import Cause, causes_of, correction_numbers
 from workbench.report.errata.chain import resting_lines
+from workbench.report.errata.needed import needed
 from workbench.report.finding import Finding
 from workbench.report.finding_sentences import IMPLIED, condition_sentence
 from workbench.report.letters import Letters, letters_of
@@ -39,7 +40,7 @@ def context_of(found: Sequence[Finding], decisions: Sequence[Decision], printed:
     return Context({d.claim.equation: d.claim.title for d in decisions},
                    {d.claim.equation: titles.get(d.claim.glyph or "", "") for d in decisions},
                    {d.claim.equation: letters_of(d) for d in decisions},
-                   resting_lines(decisions), causes, correction_numbers(found, causes), printed)
+                   resting_lines(decisions, found), causes, correction_numbers(found, causes), printed)
 
 
 def heading_of(found: Finding) -> str:
@@ -56,12 +57,14 @@ def line_of(found: Finding, context: Context) -> Formula:
 
 
 def corrected(found: Finding) -> list[Block]:
-    """What it should read, and what of that is not shown; nothing where no true statement is known."""
+    """What it should read, for what that is proved, and what of that is not shown; nothing where no true statement is
+    known."""
     if not found.should_read:
         return []
     label = {"violated": "Holds with", "gap": "What does follow"}.get(found.verdict, "Should read")
     under = condition_sentence(found)
-    return [Formula(found.should_read, label), *([Paragraph(under, "Not shown")] if under else [])]
+    return [Formula(found.should_read, label), *needed(found.needs),
+            *([Paragraph(under, "Not shown")] if under else [])]
 
 
 def labelled(*texts: tuple[str, str]) -> list[Block]:

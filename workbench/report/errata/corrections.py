@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from workbench.report.counterexample import Counterexample
-from workbench.report.errata.blocks import Block, Code, Formula, Heading, Paragraph
+from workbench.report.errata.blocks import Block, Formula, Heading, Paragraph
 from workbench.report.errata.chain import consequence
-from workbench.report.errata.conditions import LONGEST, listed_conditions
+from workbench.report.errata.conditions import ALONG, LONGEST, STATEMENT_CHECKED, UNDER, listed_conditions
 from workbench.report.errata.context import Context, corrected, heading_of, labelled, line_of
 from workbench.report.errata.letters import legend
-from workbench.report.errata.mended import CHECKER
 from workbench.report.errata.names import noted
 from workbench.report.finding import GRAVITIES, Finding, Gravity
 from workbench.report.finding_sentences import HEADINGS, reading_sentence, verdict_sentence
 from workbench.report.worded import worded
 
+READ_AS = "How it is read"
 READINGS = ("The text of the paper was extracted by a machine, which may lose a sign, a power or an index. These lines "
             "fail as extracted and hold in another reading; the printed page decides which it is.")
 
@@ -46,22 +46,22 @@ def _kind(gravity: Gravity, after_causes: bool) -> str:
 def _evidence_alone(found: Finding, context: Context) -> list[Block]:
     """What shows a cause: its line and its correction stand before."""
     blocks = [Heading(3, f"{context.numbers[found.equation]}. {heading_of(found)}"),
-              *labelled(("Read as", noted(found.reading, context.titles))), *_found(found, context, False),
+              *labelled((READ_AS, noted(found.reading, context.titles))), *_found(found, context, False),
               *labelled(("Other reading", reading_sentence(found)))]
     _remember(found, context)
-    return [*blocks, *_command(found)]
+    return blocks
 
 
 def _correction(found: Finding, context: Context) -> list[Block]:
     blocks = [Heading(3, f"{context.numbers[found.equation]}. {heading_of(found)}"), line_of(found, context),
-              *corrected(found), *labelled(("Read as", noted(found.reading, context.titles))),
+              *corrected(found), *labelled((READ_AS, noted(found.reading, context.titles))),
               *_found(found, context, True),
               *labelled(("Other reading", reading_sentence(found)),
                         ("Consequence", consequence(found, context.numbers, context.resting.get(found.equation, ()),
                                                     context.titles)),
                         ("Note", noted(found.note, context.titles)))]
     _remember(found, context)
-    return [*blocks, *_command(found)]
+    return blocks
 
 
 def _remember(found: Finding, context: Context) -> None:
@@ -77,12 +77,7 @@ def _reading(found: Finding, context: Context) -> list[Block]:
         other = Paragraph(f"It holds with another line read otherwise: “{worded(context.readings[found.equation])}”.",
                           "Other reading")
     return [Heading(3, heading_of(found)), Formula(found.printed, "As extracted"), other, *_found(found, context, True),
-            *labelled(("Note", noted(found.note, context.titles))), *_command(found)]
-
-
-def _command(found: Finding) -> list[Block]:
-    return [] if found.digest is None else [
-        Code(f"python {CHECKER} certificates/{found.equation}.json --claim-digest {found.digest}")]
+            *labelled(("Note", noted(found.note, context.titles)))]
 
 
 def _found(found: Finding, context: Context, told: bool) -> list[Block]:
@@ -93,7 +88,8 @@ def _found(found: Finding, context: Context, told: bool) -> list[Block]:
     worked: list[Block] = []
     if found.counterexample is not None and before is None:
         worked = _worked(found.counterexample, context.told)
-    told_of = legend([*finding, *worked], context.letters[found.equation]) if worked else ""
+    before_it = found.needs if told else ()
+    told_of = legend([*finding, *worked], context.letters[found.equation], before_it) if worked else ""
     blocks = [*finding, *labelled(("Letters", told_of)), *worked]
     if found.counterexample is not None and before is not None:
         blocks.append(Paragraph(f"The counterexample is that of correction {before}, where it is written out."))
@@ -103,13 +99,13 @@ def _found(found: Finding, context: Context, told: bool) -> list[Block]:
 def _worked(point: Counterexample, told: Mapping[object, int]) -> list[Block]:
     """The relation, what is assumed there, its numbers put in, and both sides evaluated."""
     if point.motion:
-        return [Formula(point.relation, "What fails throughout"), *_conditions(point, told)]
+        return [Formula(point.relation, "What fails at all times"), *_conditions(point, told)]
     if point.left is None or point.right is None:
         return []
     short = point.put_in is not None or len(point.relation) <= LONGEST
-    found: list[Block] = [Formula(point.relation, "Decided as")] if short else []
+    found: list[Block] = [Formula(point.relation, STATEMENT_CHECKED)] if short else []
     found += _conditions(point, told)
-    sides, label = [point.left, point.right], "At these numbers"
+    sides, label = [point.left, point.right], "At these values"
     if point.put_in is not None:
         label = "Numbers put in"
         sides = [put_in if put_in == value else
@@ -128,5 +124,5 @@ def _conditions(point: Counterexample, told: Mapping[object, int]) -> list[Block
     formula where it is short, each condition on a line of its own where it is not."""
     if (point.given or point.along) and (before := told.get(_where(point))):
         return [Paragraph(f"What is assumed, and all numbers, are those of correction {before}.")]
-    given = "What holds throughout" if point.motion else "Given"
-    return listed_conditions({given: point.given, "Along": point.along}, point.beside)
+    given = "What holds at all times" if point.motion else UNDER
+    return listed_conditions({given: point.given, ALONG: point.along}, point.beside)

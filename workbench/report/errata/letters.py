@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
+from workbench.report.dots import dotted, dotted_text
 from workbench.report.errata.blocks import Block, Formula, Items, Paragraph
 from workbench.report.letters import Letters
+from workbench.report.needs import Need
 from workbench.report.worded import show
 
 
@@ -15,9 +17,28 @@ def in_blocks(blocks: Iterable[Block], letters: Letters) -> list[Block]:
     return [_in_block(block, letters) for block in blocks]
 
 
-def legend(blocks: Sequence[Block], letters: Letters) -> str:
-    """What the letters stand for that are in these blocks and not the paper's; empty where none is."""
-    return letters.legend(formula for block in blocks for formula in _formulas(block))
+def legend(blocks: Sequence[Block], letters: Letters, needs: Sequence[Need] = ()) -> str:
+    """What the letters stand for that are in these blocks and not the paper's; empty where none is, or where all of it
+    stands with what a corrected statement needs."""
+    told = letters.legend(formula for block in blocks for formula in _formulas(block))
+    before = {part for need in needs for part in need.letters.removesuffix(".").split("; ")}
+    return "" if {*told.removesuffix(".").split("; ")} <= before else told
+
+
+def with_dots(blocks: Iterable[Block]) -> list[Block]:
+    """Formulas and texts with rates as dots over letters."""
+    return [_with_dots(block) for block in blocks]
+
+
+def _with_dots(block: Block) -> Block:
+    match block:
+        case Formula(latex, label):
+            return Formula(dotted(latex), label)
+        case Paragraph(text, label):
+            return Paragraph(dotted_text(text), label)
+        case Items(items):
+            return Items(tuple(replace(item, text=dotted_text(item.text)) for item in items))
+    return block
 
 
 def _in_block(block: Block, letters: Letters) -> Block:

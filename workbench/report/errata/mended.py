@@ -4,28 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from workbench.proof.checker import goal_digest
 from workbench.proof.verdict import Decision
 from workbench.proof.wording import listed
-from workbench.report.errata.blocks import Block, Code, Formula, Heading, Items, Paragraph
-from workbench.report.errata.conditions import listed_conditions, motion
+from workbench.report.errata.blocks import Block, Formula, Heading, Items, Paragraph
+from workbench.report.errata.conditions import ALWAYS, UNDER, listed_conditions, motion
 from workbench.report.errata.letters import in_blocks, legend
 from workbench.report.errata.names import name_of_line, noted
 from workbench.report.errata.proof_steps import HOW_TO_READ, proof_steps
 from workbench.report.letters import letters_of
 
 MOST_STEPS = 120  # lines of a proof beyond which a reader is sent to the certificate
-CHECKER = "checker.py"
 
 
-def mended_statements(decisions: Sequence[Decision], titles: Mapping[str, str]) -> list[Block]:
-    """Every headline statement that has a proved mended form, then each line that the proofs of these use."""
+def mended_statements(decisions: Sequence[Decision], titles: Mapping[str, str]) -> tuple[list[Block], list[Decision]]:
+    """Every headline statement that has a proved mended form, then each line that the proofs of these use; and all of
+    which a proof is told."""
     by_id = {d.claim.id: d for d in decisions}
     headlines = {d.claim.id: d for d in decisions if d.fate is not None}
     mended = [d for d in decisions if d.claim.mends in headlines and _is_proof(d)]
     blocks: list[Block] = []
     for d in mended:
-        blocks += [Heading(3, f"{name_of_line(headlines[str(d.claim.mends)])}, mended"),
+        shown = not d.proved_under
+        blocks += [Heading(3, f"{name_of_line(headlines[str(d.claim.mends)])}, mended"
+                              f"{'' if shown else ', proved only where lines hold that are not shown'}"),
                    *_stated(d, by_id, titles), *_proof(d)]
     found: list[Block] = [Heading(2, "The headline statements, mended and proved"), Paragraph(HOW_TO_READ),
                           *blocks] if blocks else []
@@ -34,7 +35,7 @@ def mended_statements(decisions: Sequence[Decision], titles: Mapping[str, str]) 
         found.append(Heading(2, "The lines that these proofs use"))
     for d in lemmas:
         found += [Heading(3, name_of_line(d)), *_stated(d, by_id, titles), *_proof(d)]
-    return found
+    return found, [*mended, *lemmas]
 
 
 def _lemmas(mended: Sequence[Decision], by_id: Mapping[str, Decision]) -> list[Decision]:
@@ -71,13 +72,12 @@ def _verdict(d: Decision) -> str:
 
 
 def _proof(d: Decision) -> list[Block]:
-    """What letters are, what is given, the steps, and how to re-check them."""
+    """What letters are, what is given, and the steps."""
     certificate = d.certificate or {}
     own, proof = letters_of(d), proof_steps(certificate)
-    given = {"Given": [*proof.signs, *proof.given], "At all times": proof.always}
+    given = {UNDER: [*proof.signs, *proof.given], ALWAYS: proof.always}
     blocks: list[Block] = [*listed_conditions(given | motion(certificate["goal"])), Items(proof.lines[:MOST_STEPS])]
     if len(proof.lines) > MOST_STEPS:
         blocks.append(Paragraph(f"{len(proof.lines) - MOST_STEPS} more steps stand in the certificate."))
     told = legend(blocks, own)
-    return [*([Paragraph(told, "Letters")] if told else []), *in_blocks(blocks, own),
-            Code(f"python {CHECKER} certificates/{d.claim.equation}.json --claim-digest {goal_digest(certificate)}")]
+    return [*([Paragraph(told, "Letters")] if told else []), *in_blocks(blocks, own)]

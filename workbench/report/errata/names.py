@@ -16,11 +16,23 @@ def noted(note: str, titles: Mapping[str, str]) -> str:
     """A note with the lines that it names as a reader of the paper calls them, and rates in words: 51.whole and D(V)
     are names of ours alone."""
     note = _RATE.sub(lambda found: f"{'The' if found.start() == 0 else 'the'} rate of {found[1]}", note)
+    told = _line_names(titles)
+    if told is None:
+        return worded(note)
+    return worded(told.sub(lambda found: _in_sentence(place_of(found[0], titles[found[0]])), note))
+
+
+def lines_named(note: str, titles: Mapping[str, str]) -> list[str]:
+    """The equations of the lines that a note names in ways of ours alone."""
+    told = _line_names(titles)
+    return [] if told is None else told.findall(note)
+
+
+def _line_names(titles: Mapping[str, str]) -> re.Pattern[str] | None:
     names = [name for name in titles if not name.isdigit() and ("." in name or name[-1].isdigit())]
     if not names:
-        return worded(note)
-    told = re.compile(rf"(?<![\w.])(?:{'|'.join(map(re.escape, sorted(names, key=len, reverse=True)))})(?!\.?\w)")
-    return worded(told.sub(lambda found: _in_sentence(place_of(found[0], titles[found[0]])), note))
+        return None
+    return re.compile(rf"(?<![\w.])(?:{'|'.join(map(re.escape, sorted(names, key=len, reverse=True)))})(?!\.?\w)")
 
 
 def _in_sentence(place: str) -> str:

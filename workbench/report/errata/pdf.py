@@ -22,6 +22,7 @@ HEAD = """#set document(date: none)
 }
 #show list: tall
 """
+BREAK = r' + "\n" + '  # between lines of code
 
 
 def pdf_of(blocks: Sequence[Block]) -> bytes | None:
@@ -55,4 +56,4 @@ TYPST = Medium(
     paragraph=lambda text, label: (f"#strong({quoted(label + '.')}) " if label else "") + _text(text),
     formula=_formula,
     items=lambda items: nested(items, _text),
-    code=lambda text: f"#raw({quoted(text)}, block: true)")
+    code=lambda text: f"#raw({BREAK.join(map(quoted, text.splitlines()))}, block: true)")

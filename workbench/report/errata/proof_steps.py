@@ -9,9 +9,10 @@ from typing import Any
 
 from workbench.proof.checker import split_relation
 from workbench.proof.wording import listed
-from workbench.report.certificate_latex import SIGNS, expression_latex, relation_latex
+from workbench.report.certificate_latex import expression_latex, relation_latex
 from workbench.report.errata.blocks import Item
 from workbench.report.errata.proof_terms import Known, Sum, margin_of, sum_of
+from workbench.report.needs import signs
 
 CASES = {"nonnegative": (">=", r"\ge 0"), "nonpositive": (">=", r"\le 0"), "negative": (">", "< 0"),
          "positive": (">", "> 0"), "zero": ("==", "= 0")}
@@ -97,7 +98,7 @@ def proof_steps(certificate: Mapping[str, Any]) -> Told:
     used = {key for line in kept for key in line.used}
     called = [known.key for known in (*given, *always)] + [line.key for line in kept]
     numbers = {key: i for i, key in enumerate((key for key in called if key in used), 1) if key is not None}
-    return Told(tuple(_signs(goal.get("assume", []))), _stated(given, goal.get("assume", []), numbers),
+    return Told(tuple(signs(goal.get("assume", []))), _stated(given, goal.get("assume", []), numbers),
                 _stated(always, goal.get("always", []), numbers), tuple(_items(kept, numbers)))
 
 
@@ -118,15 +119,6 @@ def _items(lines: Sequence[_Line], numbers: Mapping[int, int]) -> Iterator[Item]
 
 def _with_numbers(text: str, numbers: Mapping[int, int]) -> str:
     return _MARKED.sub(lambda found: f"[{numbers[int(found[1])]}]", text)
-
-
-def _signs(relations: Sequence[str]) -> Iterator[str]:
-    """The signs of single letters, those of one sign together."""
-    for operator in (">", ">=", "!="):
-        letters = dict.fromkeys(expression_latex(found[1]) for text in relations
-                                if (found := _SIGN.fullmatch(text)) and found[2] == operator)
-        if letters:
-            yield f"{', '.join(letters)} {SIGNS[operator]} 0"
 
 
 def _kept(lines: Sequence[_Line]) -> list[_Line]:

@@ -57,7 +57,12 @@ def _row(parts: list[ElementTree.Element], display: bool) -> str:
     """Pieces one after the other; brackets that do not close in the row are signs of their own."""
     signs = [part.text or "" for part in parts if part.tag == "mo"]
     balanced = sum(s in OPENING for s in signs) == sum(s in CLOSING for s in signs)
-    return " ".join(_sign(part.text or "", balanced) if part.tag == "mo" else _piece(part, display) for part in parts)
+    told = [_sign(part.text or "", balanced) if part.tag == "mo" else _piece(part, display) for part in parts]
+    for i, part in enumerate(parts[1:], 1):
+        if part.tag == "mtable" and (parts[i - 1].text or "") == "{":  # one brace that is as high as its cases
+            cases = f"cases({', '.join(' & '.join(map(_inner, row)) for row in part)})"
+            told[i - 1:i + 1] = ["", f"display({cases})" if display else cases]
+    return " ".join(filter(None, told))
 
 
 def _sign(text: str, balanced: bool) -> str:
@@ -113,8 +118,15 @@ def _number(node: ElementTree.Element, text: str) -> str:
     return text if text.replace(".", "", 1).isdigit() else quoted(text)
 
 
+def _table(node: ElementTree.Element) -> str:
+    """The lines of cases or of a matrix; what bounds them stands beside it."""
+    rows = "; ".join(", ".join(_inner(cell) for cell in row) for row in node)
+    return f"mat(delim: #none, align: #left, {rows})"
+
+
 _SIMPLE: dict[str, Callable[[ElementTree.Element, str], str]] = {
-    "mi": _letters, "mn": _number, "mtext": lambda node, text: quoted(text.replace("\u00a0", " ")),
+    "mtable": lambda node, text: _table(node), "mi": _letters,
+    "mn": _number, "mtext": lambda node, text: quoted(text.replace("\u00a0", " ")),
            "mspace": lambda node, text: "med", "mo": lambda node, text: _sign(text, False)}
 _SCRIPTS = {"msub": "b", "msup": "t", "msubsup": "bt", "munder": "b", "munderover": "bt"}
 
