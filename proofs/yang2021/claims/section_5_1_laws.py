@@ -10,7 +10,7 @@ from workbench.model.law import desired_acceleration as xddot_d
 from workbench.model.law import desired_position as x_d
 from workbench.model.law import desired_speed as xdot_d
 from workbench.model.law import over_neurons
-from workbench.proof.claim import D, Goal, at_least, at_most, equal, greater
+from workbench.proof.claim import D, Goal, at_least, at_most, equal, greater, less
 from workbench.trains.train import a_star, b_star, c_star, f, u
 
 from .. import laws as law
@@ -107,6 +107,21 @@ def barrier_term_bounded() -> Goal:
                 lemmas=(at_most(inverse, most / k), at_most(e_1, k), at_least(e_1, -k)))
 
 
+input_limit = sp.Symbol("u_star", positive=True)
+
+
+@paper.claim("A4.limit", "No limit that is known beforehand bounds the input", "implication",
+             r"\tfrac{k}{2} \le e_1 < k,\ 4u^*(k - e_1) \le 1 \Rightarrow \frac{e_1}{k^2 - e_1^2} \ge u^*", "proved", origin="ours",
+             note="For every u* there are errors within the constraint at which the last term of (33) alone is above it. An actuator with a limit cannot follow (33) near "
+                  "the constraint, and then (41) does not hold.")
+def input_exceeds_every_limit() -> Goal:
+    """The last term of (33) close to the constraint."""
+    return Goal((at_least(e_1 / (k**2 - e_1**2), input_limit),),
+                (at_least(2 * e_1, k), less(e_1, k), at_most(4 * input_limit * (k - e_1), 1)),
+                lemmas=(greater(k + e_1, 0), greater((k - e_1) * (k + e_1), 0), greater(k**2 - e_1**2, 0),
+                        at_most(4 * input_limit * (k - e_1) * (k + e_1), k + e_1), at_most(input_limit * (k**2 - e_1**2), e_1)))
+
+
 e_2_signal, rdot = sp.symbols("e_2 rdot", real=True)
 reach = dict(zip((*hats, x_2, rdot, e_2_signal), sp.symbols("A_2 B_2 C_2 X_2 R_2 E_2", nonnegative=True), strict=True))
 weights_reach, hidden_square = sp.symbols("W_2 H", nonnegative=True)
@@ -115,11 +130,12 @@ input_bound = ((reach[a_hat] + 1) / 2 + (reach[b_hat] + reach[x_2]) / 2 + (reach
                + sp.exp(2 * level) / k)
 
 
-@paper.claim("A4", "Assumption 4 follows: the input is bounded", "implication", r"|u| \leq u^*", "proved",
+@paper.claim("A4", "Assumption 4: the input is bounded", "implication", r"|u| \leq u^*", "proved",
              premises=("A4.barrier",), rests_on=(), scope=EVERY_NETWORK,
-             reading="u is (33); u* is made of bounds of the squares of the estimates, speed, virtual acceleration, e_2, weights "
-                     "and Gaussians, and of a bound B of V_1, all of which theorem1.bounded gives.",
-             note="The paper supposes what is for its proof to show; it can be shown. An input that saturates voids (41).")
+             reading="u is (33), not assumed to be bounded; u* is made of bounds of the squares of the estimates, speed, virtual acceleration, e_2, weights "
+                     "and Gaussians, and of a bound B of V_1.",
+             note="The paper supposes what is for its proof to show; it can be shown: theorem1.input has the bounds that it takes here. If u* is meant as the limit of an "
+                  "actuator, (33) does not keep it: A4.limit.")
 def input_bounded() -> Goal:
     """The whole of (33), term by term."""
     last = e_1 / (k**2 - e_1**2)
