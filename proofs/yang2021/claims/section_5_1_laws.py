@@ -70,6 +70,14 @@ def rate_of_weight() -> Goal:
     return Goal((equal(D(one_weight), chi * law.e_2 * one_h - chi * one_weight),), flow={one_weight: rate})
 
 
+@paper.claim("37.steady", "Where (37) rests the network is a proportional gain", "identity", r"\dot{\hat{W}} = 0 \Rightarrow \hat{W}^Th(x) = h(x)^Th(x)\,e_2",
+             "proved", origin="ours", premises=("37",), scope=EVERY_NETWORK, reading="Of one neuron, which stands for each.",
+             note="(37) is a lag of e_2 h, with the time constant 1/chi: it draws the weights to e_2 h, not to W*, and the share W*^2/2 of l is the price, which no gain reduces.")
+def network_at_rest() -> Goal:
+    """The output of one neuron whose weight rests."""
+    return Goal((equal(one_weight * one_h, one_h**2 * law.e_2),), (equal(chi * law.e_2 * one_h - chi * one_weight, 0),))
+
+
 @paper.claim("A3", "Assumption 3: the desired curve and its two derivatives are bounded", "condition",
              r"\text{The desired position $x_d$ and its first-order derivatives $\dot{x}_d$ and second-order derivatives "
              r"$\ddot{x}_d$ are known and bounded.}", "proved", match="words",
@@ -130,12 +138,11 @@ input_bound = ((reach[a_hat] + 1) / 2 + (reach[b_hat] + reach[x_2]) / 2 + (reach
                + sp.exp(2 * level) / k)
 
 
-@paper.claim("A4", "Assumption 4: the input is bounded", "implication", r"|u| \leq u^*", "proved",
-             premises=("A4.barrier",), rests_on=(), scope=EVERY_NETWORK,
-             reading="u is (33), not assumed to be bounded; u* is made of bounds of the squares of the estimates, speed, virtual acceleration, e_2, weights "
-                     "and Gaussians, and of a bound B of V_1.",
-             note="The paper supposes what is for its proof to show; it can be shown: theorem1.input has the bounds that it takes here. If u* is meant as the limit of an "
-                  "actuator, (33) does not keep it: A4.limit.")
+@paper.claim("33.bounded", "The control law is bounded where what it is made of is", "implication",
+             r"\hat{a}^2 \le A_2, \dots, \hat{W}^T\hat{W} \le W_2,\ \mathbf{h}^T\mathbf{h} \le H,\ V_1 \le B \Rightarrow |u| \le u^*", "proved", origin="ours",
+             premises=("A4.barrier",), scope=EVERY_NETWORK,
+             reading="u is (33); u* is made of bounds of the squares of the estimates, speed, virtual acceleration, e_2, weights "
+                     "and Gaussians, and of a bound B of V_1.")
 def input_bounded() -> Goal:
     """The whole of (33), term by term."""
     last = e_1 / (k**2 - e_1**2)
@@ -144,3 +151,15 @@ def input_bounded() -> Goal:
              at_most(over_neurons(W_hat**2), weights_reach), at_most(over_neurons(h**2), hidden_square), at_most(V_1, level))
     return Goal((at_most(command, input_bound), at_least(command, -input_bound),), (*given, *paper.shown("A4.barrier")),
                 lemmas=(at_most(x_2**4, reach[x_2] ** 2),))
+
+
+@paper.claim("A4", "Assumption 4: the input is bounded", "implication", r"|u| \leq u^*", "proved",
+             premises=("33.bounded",), rests_on=(), scope=EVERY_NETWORK, where={"u^*": input_limit},
+             reading="u is (33), which is not assumed to be bounded, and u* the bound of 33.bounded.",
+             note="The paper supposes what is for its proof to show; it can be shown, objective.input has the bounds that 33.bounded takes. If u* is meant as the limit of an "
+                  "actuator, (33) does not keep it: A4.limit.")
+def input_is_bounded() -> Goal:
+    """Both sides of 33.bounded."""
+    above, below = paper.shown("33.bounded")
+    named = {above.left: u, above.right: input_limit, below.right: -input_limit}
+    return Goal((at_most(sp.Abs(u), input_limit),), (above.subs(named), below.subs(named)))
