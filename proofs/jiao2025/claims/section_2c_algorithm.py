@@ -209,11 +209,11 @@ def reset_law() -> Goal:
 least_estimate = sp.Symbol("m", positive=True)  # min(epsilon, phi_hat(k,1))
 
 
-def _kept(first: Relation) -> Goal:
+def _kept(*first: Relation) -> Goal:
     """The estimate in use: the first one where a test of (13) has fired, else one that has passed all three."""
     passed = (at_least((1 - fires) * (updated - epsilon), 0), at_least((1 - fires) * updated * phi_first, 0))
     return Goal((at_least(after_reset, least_estimate),), (equal(after_reset, fires * phi_first + (1 - fires) * updated), at_least(fires, 0), at_most(fires, 1), *passed,
-                                                           at_most(least_estimate, epsilon), first))
+                                                           at_most(least_estimate, epsilon), *first))
 
 
 KEPT = r"\hat\phi_c(k,i) \ge \min(\varepsilon, \hat\phi_c(k,1)) > 0"
@@ -225,7 +225,7 @@ KEPT = r"\hat\phi_c(k,i) \ge \min(\varepsilon, \hat\phi_c(k,1)) > 0"
                   "either. With phi_hat(k,1) = 0 the estimate is 0 for ever; with a negative one it stays negative.")
 def reset_keeps_away() -> Goal:
     """A reset to a first estimate of any size and sign."""
-    return _kept(at_most(phi_first, 1))
+    return _kept()
 
 
 @paper.claim("13.mended", "A positive first estimate keeps the estimate positive and away from zero", "implication",

@@ -54,7 +54,7 @@ def resistance_is_continuous() -> Goal:
     return Goal((equal(gravity * (slope_before - slope_after) / 1000, 0),))
 
 
-one_hidden, other_hidden, one_best, other_best = sp.symbols("h_1 h_2 W_1 W_2", positive=True)
+one_hidden, other_hidden, one_best, other_best = sp.symbols("h_narrow h_wide W_narrow W_wide", positive=True)
 
 
 @paper.claim("8.fixed", "W* is one and the same while (12)-(15) move centers and widths", "implication",

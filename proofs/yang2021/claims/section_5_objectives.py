@@ -7,7 +7,7 @@ import sympy as sp
 from workbench.model.law import desired_acceleration as xddot_d
 from workbench.model.law import desired_position as x_d
 from workbench.model.law import desired_speed as xdot_d
-from workbench.proof.claim import D, Goal, at_least, at_most, equal
+from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal
 from workbench.trains.train import u
 
 from ..error_dynamics import (
@@ -33,6 +33,13 @@ position_most, speed_most, acceleration_most = sp.symbols("X_d V_d A_d", nonnega
 u_most = sp.Symbol("u_star", nonnegative=True)
 
 
+def _bounded_input() -> tuple[Relation, ...]:
+    """33.bounded, with letters for the input and its bound."""
+    above, below = paper.shown("33.bounded")
+    named = {above.left: u, above.right: u_most, below.right: -u_most}
+    return above.subs(named), below.subs(named)
+
+
 @paper.claim("objective.input", "The input is bounded, whatever Assumption 4 says", "implication",
              r"V \le B,\ |\dot{x}_d| \le V_d,\ |\ddot{x}_d| \le A_d \Rightarrow x_2^2 \le 3(2B + \alpha^2k^2 + V_d^2),\ "
              r"\dot{r}^2 \le 3(2\alpha^2B + \alpha^4k^2 + A_d^2),\ |u| \le u^*", "proved", origin="ours",
@@ -42,18 +49,16 @@ u_most = sp.Symbol("u_star", nonnegative=True)
 def input_bounded_by_v() -> Goal:
     """The speed and the rate of r in the errors, and (33) by what is shown of it."""
     of_e_2, *_ = paper.shown("theorem1.bounded")
-    above, below = paper.shown("33.bounded")
-    named = {above.left: u, above.right: u_most, below.right: -u_most}
     return Goal((at_most((e_2 - alpha * e_1 + xdot_d) ** 2, 3 * (of_e_2.right + alpha**2 * k**2 + speed_most**2)),
                  at_most((xddot_d - alpha * (e_2 - alpha * e_1)) ** 2, 3 * (alpha**2 * of_e_2.right + alpha**4 * k**2 + acceleration_most**2)),
                  at_most(sp.Abs(u), u_most)),
-                (inside, of_e_2, at_most(xdot_d**2, speed_most**2), at_most(xddot_d**2, acceleration_most**2), above.subs(named), below.subs(named)),
+                (inside, of_e_2, at_most(xdot_d**2, speed_most**2), at_most(xddot_d**2, acceleration_most**2), *_bounded_input()),
                 lemmas=(at_most(e_1**2, k**2),))
 
 
 @paper.claim("objective.stable", "The second objective of section 5: all signals of the closed loop are bounded", "implication",
              r"\text{The FAO is stable; that is, all closed-loop signals are bounded.}", "proved", severity="result", match="words",
-             premises=("theorem1.bounded", "theorem1.barrier", "objective.input"), rests_on=("theorem1.bounded", "theorem1.barrier", "A3", "A4"),
+             premises=("theorem1.bounded", "theorem1.barrier", "objective.input", "33.bounded"), rests_on=("theorem1.bounded", "theorem1.barrier", "A3", "A4"),
              scope=EVERY_NETWORK,
              reading="Position and speed by the bounds of the errors and of the desired curve (A3), the input by objective.input, which does not suppose Assumption 4; the errors and estimates are "
                      "theorem1.bounded. For constant coefficients and gains with mu > 0.",
@@ -61,9 +66,9 @@ def input_bounded_by_v() -> Goal:
                   "(33) does not keep it: A4.limit.")
 def all_signals_bounded() -> Goal:
     """x_1 = e_1 + x_d with |e_1| < k; x_2 = e_2 - alpha e_1 + x_d' and u by objective.input."""
-    speed, _, command = paper.shown("objective.input")
+    speed, *_ = paper.shown("objective.input")
     return Goal((at_most((e_1 + x_d) ** 2, 2 * k**2 + 2 * position_most**2), at_most(x_2_errors**2, speed.right), at_most(u**2, u_most**2)),
-                (inside, at_most(x_d**2, position_most**2), speed, command))
+                (inside, at_most(x_d**2, position_most**2), at_most(xdot_d**2, speed_most**2), speed, *_bounded_input()))
 
 
 OBJECTIVE = (r"\text{When the coefficients of the basic resistance Davis equation are uncertain or time-varying, the additional resistance "

@@ -61,7 +61,7 @@ def bound_explains_speed_error() -> Goal:
 @paper.claim("theorem1.stated", "At the gains of section 6.1 the neighborhood of e_1 is within 0.2 m", "condition",
              r"k\sqrt{1 - e^{-2l/\mu}} \le 0.2", "violated", origin="ours", rests_on=(),
              at={**best_case, k: stated_gains[k]}, repair={**repaired_gains, k: stated_gains[k]},
-             note="The ultimate bound of V keeps e_1 only below 0.2099 m, which is k itself to all digits that the paper prints; the other bound, sqrt(2l/mu)/alpha of "
+             note="The ultimate bound of V keeps e_1 only below 0.20999 m, which is k itself to all digits that the paper prints; the other bound, sqrt(2l/mu)/alpha of "
                   f"theorem1.speed, is {ultimate_speed_bound / float(stated_gains[alpha]):.0f} m.")
 def bound_explains_position_error() -> Goal:
     """k^2 (1 - exp(-2 l/mu)) <= 0.2^2."""
