@@ -13,7 +13,7 @@ from ..plant import M, T_s, next_speed, u_i, u_prev, v_i, v_prev
 from .section_2a_train import a, b, secant, two_trials
 
 w = sp.Symbol("w", positive=True)
-U, d = sp.symbols("U d", nonnegative=True)
+U, d = sp.symbols("U d_u", nonnegative=True)
 two_trials_after = a * Delta_v_k + b * Delta_u_i  # 5.trials with b = T_s/M
 two_trials_next = equal(Delta_v_next, two_trials_after)
 damped = (greater(a, 0), at_most(a, 1))
@@ -35,7 +35,7 @@ paper.axiom("A2", "Assumption 2: generalised Lipschitz condition along the trial
             note="For Delta u(k,i) not zero. With Assumption 1 it says that v(k+1) depends on u(k) alone, since whatever earlier inputs did Delta v(k+1,i) goes to zero with Delta u(k,i): 6.unchanged. "
                  "Whether the train meets it, as Remark 2 says, is remark2.inherent.")
 
-different = sp.Symbol("q", nonnegative=True)  # |Delta f_a(k)|
+different = sp.Symbol("d_f", nonnegative=True)  # |Delta f_a(k)|
 
 
 @paper.claim("remark2.inherent", "Remark 2: Assumption 2 is an inherent mechanical property of the train", "inequality",
@@ -150,6 +150,21 @@ def tracking_error() -> Goal:
     """From trial i - 1 to trial i."""
     return Goal((equal(e_i, v_d - v_next),),
                 (equal(e_prev, v_d - v_next_prev), equal(e_i, e_prev - phi * Delta_u_i), speed_by_model))
+
+
+one_outcome, other_outcome = sp.symbols("e_a e_b", real=True)
+tail, chance, mean_size, above = sp.symbols("delta P_x m_e x", positive=True)
+
+
+@paper.claim("6.aim", "The text after (5): the aim, an error that goes to zero, is met where its expectation goes to zero", "implication",
+             r"\text{the control aim is to find a suitable control input such that the tracking error } e(k+1, i) \text{ converges to 0 as the number of trials } i \text{ goes to infinity}", "gap",
+             match="words", rests_on=(), reading="Theorem 1 and section 5 are of E{e(k,i)}. Asked of an error with two equally likely values, whose expectation is zero.",
+             correction=lambda: Goal((at_most(chance, mean_size / tail),), (at_least(above, tail), at_least(mean_size, chance * above))),
+             corrected_statement=r"E|e(k,i)| \to 0 \Rightarrow P[|e(k,i)| > \delta] \le \tfrac{1}{\delta}E|e(k,i)| \to 0",
+             note="An error of 1 in half of all runs and of -1 in the others has the expectation zero. E|e| is what should be said to converge, as theorem1.mended does.")
+def mean_is_not_all() -> Goal:
+    """Two outcomes of the same chance."""
+    return Goal((equal(one_outcome, 0),), (equal((one_outcome + other_outcome) / 2, 0),))
 
 
 change_at_rest, slope = sp.symbols("Delta_v_0 L", real=True)

@@ -130,18 +130,18 @@ def named_contraction() -> tuple[Relation, ...]:
 e_one, e_two, e_start = sp.symbols("e_1 e_2 e_0", real=True)
 m_i, m_prev = sp.symbols("m_i m_prev", nonnegative=True)  # E|e| of trials i and i-1
 j, outcomes = sp.symbols("j n")
-root_of_chance, error, shortfall = (sp.IndexedBase(name, real=True) for name in ("r", "e_j", "t"))
+root_of_chance, error, shortfall = (sp.IndexedBase(name, real=True) for name in ("q_j", "e_j", "t_j"))
 
 
 def mean_of(value: sp.Expr) -> sp.Expr:
-    """The mean over the outcomes of the trials before, with the chances r_j^2."""
+    """The mean over the outcomes of the trials before, with the chances q_j^2."""
     return sp.Sum(root_of_chance[j] ** 2 * value, (j, 1, outcomes))
 
 
 @paper.claim("theorem1.mean", "Expectation of the error of the next trial, lengths independent of the error", "implication",
              r"E|e(k+1,i)| \le (1 - p(k+1)M_1)\,E|e(k+1,i-1)|", "proved", premises=("theorem1.whole", "theorem1.step", "gamma.mean"), origin="ours",
              scope="every finite number of outcomes, which lengths with finitely many values make",
-             note="Outcome j of the trials before has the chance r_j^2, an error of the size e_j and, where data arrive, one whose size is t_j^2 below the bound of theorem1.whole. "
+             note="Outcome j of the trials before has the chance q_j^2, an error of the size e_j and, where data arrive, one whose size is t_j^2 below the bound of theorem1.whole. "
                   "Uses that gamma(k+1,i-1) and e(k+1,i-1) are independent, which Assumption 3 does not say: A3.independent.")
 def expected_step() -> Goal:
     """With data theorem1.whole, without data theorem1.step keeps the error."""
