@@ -89,7 +89,7 @@ def never_both_small() -> Goal:
 
 @paper.claim("remark5", "Remark 5: the design relaxes the assumption of identical initial conditions", "limit",
              r"\text{this design can relax the basic assumption of ILC systems that the initial conditions need to be strictly identical}", "refuted",
-             premises=("1", "13", "14"), rests_on=("theorem1", "6"), severity="result", closed_loop=True, match="words",
+             premises=("1", "13", "14"), rests_on=("remark2.inherent", "6"), severity="result", closed_loop=True, match="words",
              reading="A motion of the train (1)-(3) under (13)-(15) that repeats itself every second trial has no error at the first sample, whatever its initial speeds.",
              note="Say the error at the first sample vanished while the initial speeds alternate between two values. By (14) the change of u(0,i) would vanish with it, and Delta v(1,i) would come down to what the start "
                   "alternates by, which is not zero: so the error does not vanish, whatever lambda, rho, epsilon and the estimates are (remark5.always; its size for a fixed estimate: remark5.persists). In the motion "
