@@ -209,23 +209,22 @@ def reset_law() -> Goal:
 least_estimate = sp.Symbol("m", positive=True)  # min(epsilon, phi_hat(k,1))
 
 
-def _kept(*first: Relation) -> Goal:
+def _kept(shown: Relation, *first: Relation) -> Goal:
     """The estimate in use: the first one where a test of (13) has fired, else one that has passed all three."""
     passed = (at_least((1 - fires) * (updated - epsilon), 0), at_least((1 - fires) * updated * phi_first, 0))
-    return Goal((at_least(after_reset, least_estimate),), (equal(after_reset, fires * phi_first + (1 - fires) * updated), at_least(fires, 0), at_most(fires, 1), *passed,
-                                                           at_most(least_estimate, epsilon), *first))
+    return Goal((shown,), (equal(after_reset, fires * phi_first + (1 - fires) * updated), at_least(fires, 0), at_most(fires, 1), *passed, *first))
 
 
 KEPT = r"\hat\phi_c(k,i) \ge \min(\varepsilon, \hat\phi_c(k,1)) > 0"
 
 
 @paper.claim("13.keeps", "After (13) the estimate is positive and away from zero", "implication", KEPT, "gap",
-             premises=("13",), origin="implied", reading="What Theorem 1 needs of (13), with phi_c > 0: m > 0 is the least estimate. An estimate in use is the first one, where a test fires, or has passed the three tests.",
+             premises=("13",), origin="implied", reading="What Theorem 1 needs of (13), with phi_c > 0; decided as the least of it, that the estimate is positive. An estimate in use is the first one, where a test fires, or has passed the three tests.",
              note="It holds when the first estimate is positive, 13.mended, which the paper does not ask for: the control direction is known, by Remark 4, but phi_hat(k,1) is stated nowhere, not in section 4 "
                   "either. With phi_hat(k,1) = 0 the estimate is 0 for ever; with a negative one it stays negative.")
 def reset_keeps_away() -> Goal:
     """A reset to a first estimate of any size and sign."""
-    return _kept()
+    return _kept(greater(after_reset, 0))
 
 
 @paper.claim("13.mended", "A positive first estimate keeps the estimate positive and away from zero", "implication",
@@ -233,7 +232,7 @@ def reset_keeps_away() -> Goal:
              reading="m is at most epsilon and at most phi_hat(k,1). An estimate in use is the first one, where a test fires, or has passed the three tests; fires is 1 or 0.")
 def reset_mended() -> Goal:
     """A reset to a positive first estimate."""
-    return _kept(at_least(phi_first, least_estimate))
+    return _kept(at_least(after_reset, least_estimate), at_most(least_estimate, epsilon), at_least(phi_first, least_estimate))
 
 
 @paper.claim("13.keeps.N", "(13) keeps an estimate that has found dv(k+1)/du(k)", "condition",

@@ -161,7 +161,7 @@ THEOREM = r"\exists \lambda_{\min} > 0:\ \lambda > \lambda_{\min} \Rightarrow \l
                      "have the same random length, T_i = T_1, as Assumption 3 allows: after the first trial the error is (1 - g) e_0 with the probability p(k+1), and then data arrive again, else e_0.",
              correction=lambda: _next_mean(p_k), corrected_statement=r"P[T_i = T_{\min} + l\,|\,T_1, \dots, T_{i-1}] = p_l,\ 0 \le p_l < 1,\ p_{T_d - T_{\min}} > 0 \Rightarrow "
                                                                     r"E\{\gamma(k+1,i-1)\,e(k+1,i-1)\} = p(k+1)\,E\{e(k+1,i-1)\}",
-             note="Assumption 3 gives the distribution of each T_i, not their dependence; the paper certainly means independent lengths, as its [23] says. Without it the theorem fails: theorem1.lengths.")
+             note="Assumption 3 gives the distribution of each T_i, not their dependence; the paper certainly means independent lengths. Without them the theorem fails: theorem1.lengths.")
 def lengths_are_independent() -> Goal:
     """Where trial i-1 is as long as the first one, data arrive just where they did."""
     return _next_mean(sp.Integer(1))
