@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from workbench.proof.claim import Goal, at_least, at_most, equal, less
+from workbench.proof.claim import Goal, Relation, at_least, at_most, equal, less
 
 from ..laws import Delta_u, Delta_v, e_prev, epsilon, estimate_step, eta, gamma, phi_prev
 from ..notation import Delta_v_k, p_k
@@ -20,17 +20,26 @@ from .section_3c_theorem_1 import error, g, geometric_term, j, largest, m_i, m_p
 
 share = sp.Symbol("gamma_01", real=True)
 before = sp.Symbol("D_i", nonnegative=True)
-steepness, moved = sp.Symbol("L", nonnegative=True), sp.Symbol("Delta_s", real=True)
-same_line = (at_least(a, 0), at_most(a, 1), at_most(sp.Abs(Delta_f), steepness * sp.Abs(moved)))
+factor, size_before, speeds, resistances = sp.symbols("c_g x_prev V_k F_k", nonnegative=True)
+
+
+def _within(value: sp.Expr, most: sp.Expr) -> tuple[Relation, Relation]:
+    return at_most(value, most), at_least(value, -most)
 
 
 @paper.claim("theorem1.train.step", "The train's error of the next trial, one sample", "inequality",
              r"|e(k+1,i)| \le |1 - \gamma g|\,|e(k+1,i-1)| + D(k,i),\ D = |\Delta v(k,i)| + \tfrac{T_s}{M}L|\Delta s(k,i)|", "proved", premises=("5.trials.place", "14"), origin="ours",
+             reading="Each size stands as a bound from both sides: c_g of 1 - gamma g, x_prev of e(k+1,i-1), V_k of Delta v(k,i), F_k of Delta f_a(k,i), which is at most L|Delta s(k,i)|.",
              note="g = (T_s/M) rho phi_hat/(lambda + phi_hat^2), for any estimate; 0 <= a <= 1, and f_a a function of the place alone, the same in every trial and Lipschitz with the constant L.")
 def train_error_step() -> Goal:
     """The triangle inequality on e - a Delta v(k) + b Delta f_a - gamma g e."""
-    after = e_prev - (a * Delta_v_k - b * Delta_f + g * share * e_prev)
-    return Goal((at_most(sp.Abs(after), sp.Abs(1 - share * g) * sp.Abs(e_prev) + sp.Abs(Delta_v_k) + b * steepness * sp.Abs(moved)),), same_line)
+    kept, after = (1 - share * g) * e_prev, e_prev - (a * Delta_v_k - b * Delta_f + g * share * e_prev)
+    most = factor * size_before
+    given = (*_within(1 - share * g, factor), *_within(e_prev, size_before), *_within(Delta_v_k, speeds), *_within(Delta_f, resistances), at_least(a, 0), at_most(a, 1))
+    return Goal(_within(after, most + speeds + b * resistances), given,
+                lemmas=(at_least((factor - 1 + share * g) * (size_before + e_prev), 0), at_least((factor + 1 - share * g) * (size_before - e_prev), 0), at_most(kept, most),
+                        at_least((factor - 1 + share * g) * (size_before - e_prev), 0), at_least((factor + 1 - share * g) * (size_before + e_prev), 0), at_least(kept, -most),
+                        at_most(a * Delta_v_k, speeds), at_least(a * Delta_v_k, -speeds)))
 
 
 @paper.claim("theorem1.train.estimate", "The train's estimates are bounded where its speeds are", "implication",

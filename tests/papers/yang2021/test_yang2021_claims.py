@@ -88,7 +88,8 @@ def test_the_errors_of_position_and_speed_come_below_the_bounds_of_theorem1_spee
     """For an e_2 that swings within its bound as it likes, and for one that stays at it."""
     for e_2 in (lambda t: 0.7 * np.sin(alpha * t), lambda t: 0.7, lambda t: 0.7 * np.sign(np.sin(0.5 * t))):
         times = np.linspace(0.0, 60.0 / alpha, 4001)
-        found = solve_ivp(lambda t, e, e_2=e_2: -alpha * e + e_2(t), (0.0, times[-1]), [2.0], t_eval=times, max_step=0.02)
+        found = solve_ivp(lambda t, e, e_2=e_2: -alpha * e + e_2(t), (0.0, times[-1]), [2.0], t_eval=times,
+                          max_step=0.02)
         late = times > 30.0 / alpha
         e_1, speed = found.y[0][late], np.array([e_2(t) for t in times[late]]) - alpha * found.y[0][late]
         assert np.max(np.abs(e_1)) <= 0.7 / alpha + 1e-3
