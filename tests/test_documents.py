@@ -24,8 +24,14 @@ def test_the_start_of_the_readme_says_what_is_found():
     start = (ROOT / "README.md").read_text(encoding="utf-8").partition("## Start here")[2].partition("\n## ")[0]
     fate, _, finding, _, counts = start.split("```")[3].strip().splitlines()
     errata = (DOCS / "errata/yang2021/errata.md").read_text(encoding="utf-8")
-    assert re.search(rf"^- {re.escape(fate)} See correction \d+\.$", errata, re.MULTILINE)
-    assert finding.replace("e₁ = 0, k = 1", "$e_{1} = 0$, $k = 1$").replace("sides are 0", "sides are $0$") in errata
+    fate = fate.replace("μ", r"$\mu$")
+    assert re.search(rf"^- {re.escape(fate)} See correction \d+\b.*\.$", errata, re.MULTILINE)
+    for plain, formula in (("e₁ = 0.2075, k = 0.21", "$e_{1} = 0.2075$, $k = 0.21$"),
+                           ("0.2075 ≤ 0.2.", r"$0.2075 \le 0.2$."),
+                           ("|e₁| ≤ 0.2", r"$\left|e_{1}\right| \le 0.2$")):
+        assert plain in finding
+        finding = finding.replace(plain, formula)
+    assert finding in errata
     lines, words = re.fullmatch(r"(\d+) lines of the paper: (.*)", counts).groups()
     told = re.search(rf"Of {lines} lines, (?:\d+ of which the text implies [^,]*, )?(.*?)"
                      r"(?:; (?:one|\d+) more [^.]*)?\. Proved", errata)[1]

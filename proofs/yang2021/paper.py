@@ -5,7 +5,7 @@ Output Constrained Robust Adaptive Control, Algorithms 14 (2021) 264.
 
 Its claims are those of sections 2 to 5 and of section 6, numbers and text. The plant and the laws are those that the
 simulation runs; V is (38). Derivatives are written D(...) and derived along the closed loop. Lines that only name
-something, (5), (6), (9), (16), (18), (22), (23), (27), (30), (38), (49), (50), enter the goals as what they define;
+something, (5) to (7), (9), (16), (18), (22), (23), (27), (30), (38), (49), (50), enter the goals as what they define;
 what the text says of them has rows of its own.
 """
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from workbench.proof.claim import D, Goal, at_least, equal, greater
+from workbench.proof.claim import D, Goal, at_least, at_most, equal, greater
 from workbench.trains.train import F, a_0, b_0, c_0, f_add, m, single_particle, v
 
 from ..paper import paper
@@ -54,7 +54,7 @@ def slope_resistance() -> Goal:
 
 
 @paper.claim("2.curves", "f_a is the resistance of slopes, curves and tunnels, and (2) is all of it", "implication",
-             r"f_a(s) \text{ is the additional resistance that slopes, curves and tunnels cause}", "gap",
+             r"f_a(s) \text{ is the additional resistance that slopes, curves and tunnels cause}", "gap", origin="ours",
              premises=("2",), severity="cosmetic", match="words",
              reading="The text below Figure 1 and (2) taken together.",
              note="By (2) a level curve or tunnel has no resistance. Harmless where curves and tunnels are counted as a slope, which the text does not say; f_a is taken as unknown later on.")
@@ -80,13 +80,28 @@ paper.axiom("remark1", "Remark 1: time-varying resistance coefficients",
 f_a_i, f_a_prev = sp.symbols("f_a_i f_a_prev", real=True)
 
 
+place_i, place_prev, start, steepness, run_so_far = sp.symbols("s_i s_prev s_0 L S", real=True)
+
+
 @paper.claim("4", "The next speed is a function of the last n_v + 1 speeds and n_u + 1 inputs", "implication",
-             r"v(k+1, i) = f(v(k, i), \dots, v(k-n_v, i)), u_f(k, i), \dots, u_f(k-n_u, i)", "gap", premises=("1",), rests_on=("1", "2", "3"),
-             reading="The bracket of f closes at the end of the line. Two runs with the same last speeds and inputs are at places with other f_a.",
+             r"v(k+1, i) = f(v(k, i), \dots, v(k-n_v, i)), u_f(k, i), \dots, u_f(k-n_u, i)", "proved", premises=("1",), rests_on=("1", "2", "3"),
+             reading="The bracket of f closes at the end of the line. n_v is unknown in the paper and taken as large as it may be, back to the departure, and f knows k, as b_0(k) to b_2(k) do: two runs with "
+                     "the same start, the same speeds since then, whose sum is S, and the same input go on alike.",
+             note="f_a is a function of the place, taken as Lipschitz with the constant L, and the place is the start and T_s times the sum of all speeds since the departure. A window that does not reach back so "
+                  "far is not enough: 4.window.")
+def whole_window() -> Goal:
+    """The same place, hence the same f_a, hence the same next speed."""
+    steep = (at_least(steepness, 0), at_most(sp.Abs(f_a_i - f_a_prev), steepness * sp.Abs(place_i - place_prev)))
+    places = (equal(place_i, start + T_s * run_so_far), equal(place_prev, start + T_s * run_so_far))
+    return Goal((equal(next_speed(v_i, u_i, f_a_i), next_speed(v_i, u_i, f_a_prev)),), (*steep, *places),
+                lemmas=(equal(place_i - place_prev, 0), equal(f_a_i - f_a_prev, 0)))
+
+
+@paper.claim("4.window", "A window of a few samples gives the next speed", "implication",
+             r"v(k+1, i) = f(v(k, i), \dots, v(k-n_v, i), u_f(k, i), \dots, u_f(k-n_u, i)),\ n_v < k", "gap", premises=("1",), origin="ours",
+             reading="Two runs with the same last speeds and inputs are at places with other f_a.",
              note="f_a depends on the position, which is the sum of all speeds since departure: two runs with the same "
-                  "last speeds and inputs at different positions go on differently. It holds only when n_v reaches "
-                  "back to the departure (and with an f that knows k, as b_0(k) to b_2(k) do); such a model "
-                  "is what Assumption 2 then cannot hold for.")
+                  "last speeds and inputs at different positions go on differently.")
 def finite_window() -> Goal:
     """The same speed and input with two values of f_a."""
     return Goal((equal(next_speed(v_i, u_i, f_a_i), next_speed(v_i, u_i, f_a_prev)),))
@@ -115,10 +130,20 @@ def trial_difference() -> Goal:
     return Goal((equal(two_trials, secant * (v_i - v_prev) + T_s / M * (u_i - u_prev)),))
 
 
+@paper.claim("5.trials.place", "The same where the trials meet other resistances", "identity",
+             r"\Delta v(k+1,i) = a\,\Delta v(k,i) + \frac{T_s}{M}(\Delta u_f(k,i) - \Delta f_a(k,i))", "proved", premises=("1",), origin="ours",
+             note="By (2) f_a differs where the trials are at other places at k, which earlier inputs have brought about; and where the line itself has changed.")
+def trial_difference_with_places() -> Goal:
+    """(1) for trials i and i-1, each with its own f_a."""
+    there = next_speed(v_i, u_i, f_a_i) - next_speed(v_prev, u_prev, f_a_prev)
+    return Goal((equal(there, secant * (v_i - v_prev) + T_s / M * (u_i - u_prev - (f_a_i - f_a_prev))),))
+
+
 @paper.claim("remark4", "Remark 4: the output does not fall when the input rises", "inequality",
              r"\text{the system's output does not decrease when the control input increases}", "proved", premises=("A1",), match="words",
              reading="Decided for the train: v(k+1) has a positive derivative by u(k).",
-             note="True of the train. It is not Assumption 4, which Remark 4 argues for: phi_c of (5) is not this derivative.")
+             note="True of the train, whose control direction is known. It is not Assumption 4, which Remark 4 reads it off and calls reasonable for many practical systems: "
+                  "phi_c of (5) is not this derivative, see A4.train.")
 def control_direction() -> Goal:
     """The derivative of A1 is positive."""
     return Goal((greater(D(next_speed(v_i, u_i)), 0),), flow={u_i: sp.Integer(1)})

@@ -6,27 +6,40 @@ from fractions import Fraction
 
 import sympy as sp
 
-from workbench.proof.claim import Goal, at_least, at_most, equal, greater, less
+from workbench.proof.claim import Goal, Relation, at_least, at_most, equal, greater, less
 
 from ..laws import e_now, gamma
 from ..notation import T_d, T_min, e_i, gamma_mean, p_k, xi, xi_star
 from ..paper import paper
 
 sample = sp.Symbol("k", real=True)
+length_i = sp.Symbol("T_i", real=True)
+reached_by_trial = (at_least(length_i, T_min), at_most(sample, length_i))  # k is reached by trial i
 
 
 @paper.claim("3.redundant", "The text after (13): Data that a trial longer than T_d brings are redundant", "inequality",
              r"T_d \leq T_i \leq T_{\max}:\ \text{the data in } [T_d, T_{\max}] \text{ are redundant}", "refuted", severity="cosmetic", match="words",
              reading="Redundant are samples that are not among the desired ones, k > T_d.",
-             note="k = T_d itself is a desired sample; the redundant ones are those of [T_d + 1, T_max]. The paper then takes T_i <= T_d alone.")
+             note="k = T_d itself is a desired sample; the redundant ones of trial i are those of [T_d + 1, T_i]. The paper then takes T_i <= T_d alone.")
 def redundant_samples() -> Goal:
     """A sample of the interval lies beyond T_d."""
     return Goal((greater(sample, T_d),), (at_least(sample, T_d), greater(T_d, 0)))
 
 
+@paper.claim("3.available", "The text after (13): The data of trial i are available on [T_min, T_i]", "implication",
+             r"\text{in the time interval } [T_{\min}, T_i] \text{ the system data are available}", "gap", severity="cosmetic", match="words",
+             reading="As gamma has it, available are the samples that the trial reaches, k <= T_i; they lie in that interval.",
+             correction=lambda: Goal((at_least(sample, 0), at_most(sample, length_i)), (*reached_by_trial, at_least(sample, 0))),
+             corrected_statement=r"[0, T_i]", note="It should read [0, T_i]: up to T_min the data of every trial are available.")
+def available_samples() -> Goal:
+    """A sample that the trial reaches."""
+    return Goal((at_least(sample, T_min),), (*reached_by_trial, at_least(sample, 0), at_least(T_min, 1)))
+
+
 @paper.claim("gamma", "gamma = 1 has a probability strictly between 0 and 1 at every k", "condition",
              r"0 < p(k) < 1", "violated", at={p_k: Fraction(1)}, severity="cosmetic",
-             note="For k in [0, T_d]. The text itself goes on to p(k) = 1 on [0, T_min] and to 0 < p(k) <= 1.")
+             note="For k in [0, T_d]. The text itself goes on to p(k) = 1 on [0, T_min] and to 0 < p(k) <= 1. At the other end p(k) > 0 asks that the longest length occurs, p(T_d) = p_l > 0 for l = T_d - T_min, "
+                  "where Assumption 3 has 0 <= p_l: it should ask that this one is positive (gamma.positive.mended). With p_l = 1/100, as simulated, it is.")
 def strictly_between() -> Goal:
     """p(k) on [0, T_min], where the text sets it to 1."""
     return Goal((greater(p_k, 0), less(p_k, 1)))
@@ -91,28 +104,34 @@ p_last = sp.Symbol("p_last", real=True)  # probability of the greatest length
 other_reaching, other_short = sp.symbols("p_other_reaching p_short", nonnegative=True)
 
 
-def _reaching(last_occurs: bool) -> Goal:
+def _reaching(*more: Relation) -> Goal:
     """p(k): the last length, the other lengths that reach k, and those that do not, which sum to one."""
     distribution = (equal(p_last + other_reaching + other_short, 1), at_least(p_last, 0), less(p_last, 1), equal(p_k, p_last + other_reaching))
-    occurs = (greater(p_last, 0),) if last_occurs else ()
-    return Goal((greater(p_k, 0), at_most(p_k, 1)), (*distribution, *occurs))
+    return Goal((greater(p_k, 0), at_most(p_k, 1)), (*distribution, *more))
 
 
-@paper.claim("gamma.positive", "Obviously 0 < p(k) <= 1", "inequality", r"0 < p(k) \leq 1", "refuted", premises=("gamma.p",), rests_on=("gamma.p", "A3"),
-             correction=lambda: _reaching(last_occurs=True),
-             corrected_statement=r"0 \le p_l < 1,\ \sum_l p_l = 1,\ p_{T_d - T_{\min}} > 0 \Rightarrow 0 < p(k) \le 1",
-             note="Assumption 3 allows p_l = 0. If the longest length never occurs p(T_d) = 0, nothing is ever learned "
-                  "at T_d, and Theorem 1 fails there. With p_l = 1/100, as simulated, it holds.")
+@paper.claim("gamma.positive", "Obviously 0 < p(k) <= 1", "inequality", r"0 < p(k) \leq 1", "proved", premises=("gamma.p",), rests_on=("gamma.p", "A3"),
+             reading="With 0 < p(k), which the text lays down where it defines gamma.",
+             note="Assumption 3 alone does not give it: A3.last.")
 def reaching_is_possible() -> Goal:
+    """p(k) for any distribution that Assumption 3 allows, with what is laid down of gamma."""
+    return _reaching(greater(p_k, 0))
+
+
+@paper.claim("A3.last", "Assumption 3 alone makes every sample reachable", "inequality", r"0 \le p_l < 1 \Rightarrow 0 < p(k)", "refuted", premises=("gamma.p",), origin="ours",
+             correction=lambda: _reaching(greater(p_last, 0)),
+             corrected_statement=r"0 \le p_l < 1,\ \sum_l p_l = 1,\ p_{T_d - T_{\min}} > 0 \Rightarrow 0 < p(k) \le 1",
+             note="If the longest length never occurs p(T_d) = 0, and nothing is ever learned at T_d. The definition of gamma excludes that.")
+def reaching_by_assumption_3() -> Goal:
     """p(k) for any distribution that Assumption 3 allows."""
-    return _reaching(last_occurs=False)
+    return _reaching()
 
 
 @paper.claim("gamma.positive.mended", "Where the longest length occurs every k is reached with a probability above zero", "inequality",
-             r"p_{T_d - T_{\min}} > 0 \Rightarrow 0 < p(k) \le 1", "proved", premises=("gamma.p",), origin="ours", mends="gamma.positive")
+             r"p_{T_d - T_{\min}} > 0 \Rightarrow 0 < p(k) \le 1", "proved", premises=("gamma.p",), origin="ours", mends="A3.last")
 def reaching_mended() -> Goal:
     """p(k) is at least the probability of the longest length."""
-    return _reaching(last_occurs=True)
+    return _reaching(greater(p_last, 0))
 
 
 reached, missed = sp.symbols("gamma_reached gamma_missed", real=True)  # the two values of gamma
@@ -123,9 +142,6 @@ reached, missed = sp.symbols("gamma_reached gamma_missed", real=True)  # the two
 def bernoulli_mean() -> Goal:
     """The mean of a variable that is 1 with probability p(k) and else 0."""
     return Goal((equal(gamma_mean, p_k),), (equal(gamma_mean, reached * p_k + missed * (1 - p_k)), equal(reached, 1), equal(missed, 0)))
-
-
-length_i = sp.Symbol("T_i", real=True)
 
 
 def _modified(equation: str, latex: str, starred: sp.Symbol, plain: sp.Symbol, note: str) -> None:

@@ -13,7 +13,6 @@ from ..laws import (
     Delta_u,
     e_next,
     e_prev,
-    epsilon,
     estimate_step,
     eta,
     gamma,
@@ -28,14 +27,15 @@ from ..laws import (
 from ..notation import epsilon_bar, p, p_k
 from ..paper import paper
 from ..plant import u_prev
-from .section_2c_algorithm import share_of_new
+from .section_2c_algorithm import least_estimate, share_of_new
 from .section_3b_improved_laws import with_gamma
 
 phi_c, phi_hat = sp.symbols("phi_c phi_hat_c", positive=True)  # by Assumption 4 and 13.mended, with a positive first estimate
 phi_upper, M_1 = sp.symbols("Phi M_1", positive=True)
 g = sp.Symbol("g", positive=True)
 contraction = rho * phi_c * phi_hat / (lamda + phi_hat**2)
-contraction_lemmas = (greater(4 * lamda, rho**2 * phi_c**2), greater(lamda + phi_hat**2, rho * phi_c * phi_hat))
+largest = sp.Symbol("s", positive=True)  # rho p/(2 sqrt lambda), below 2 where lambda > rho^2 p^2/16
+lambda_is_large = (less(largest, 2), at_least(4 * lamda * largest**2, rho**2 * p**2))
 
 
 @paper.claim("theorem1.estimate", "The estimate is a mean of the last one and phi_c", "identity",
@@ -71,75 +71,81 @@ def error_step() -> Goal:
     return Goal((equal(after, (1 - gamma * rho * phi * phi_i / (lamda + phi_i**2)) * e_prev),))
 
 
-@paper.claim("theorem1.lambda", "lambda_min = rho^2 p^2/4 makes the factor a contraction", "implication",
-             r"\lambda > \lambda_{\min} = \tfrac14\rho^2p^2 \Rightarrow 0 < \frac{\rho\phi_c\hat\phi_c}{\lambda + \hat\phi_c^2} < 1",
-             "proved", premises=("lemma1",), origin="ours",
-             note="The paper only says that a lambda_min exists. This one keeps the sign of the error; |1 - .| < 1 alone needs a quarter of it.")
+@paper.claim("theorem1.lambda", "lambda_min = rho^2 p^2/16 makes the factor a contraction", "implication",
+             r"\lambda > \lambda_{\min} = \tfrac{1}{16}\rho^2p^2 \Rightarrow 0 < \frac{\rho\phi_c\hat\phi_c}{\lambda + \hat\phi_c^2} \le s < 2,\ "
+             r"\text{so that } \left|1 - \frac{\rho\phi_c\hat\phi_c}{\lambda + \hat\phi_c^2}\right| < 1",
+             "proved", premises=("lemma1",), origin="ours", reading="s = rho p/(2 sqrt lambda), which is below 2 just for such lambda; then 4 lambda s^2 = rho^2 p^2.",
+             note="The paper only says that a lambda_min exists. No smaller one serves: at phi_c = p and phi_hat = sqrt(lambda) the quotient is s. Where lambda > rho^2 p^2/4 the error "
+                  "keeps its sign too: theorem1.lambda.sign.")
 def lambda_min_exists() -> Goal:
+    """The square (2 s phi_hat - rho phi_c)^2 does it."""
+    return Goal((greater(contraction, 0), at_most(contraction, largest)), (at_most(phi_c, p), *lambda_is_large),
+                lemmas=(at_least(4 * lamda * largest**2, rho**2 * phi_c**2), at_least(largest * (lamda + phi_hat**2), rho * phi_c * phi_hat)))
+
+
+@paper.claim("theorem1.lambda.sign", "With lambda > rho^2 p^2/4 the error keeps its sign", "implication",
+             r"\lambda > \tfrac14\rho^2p^2 \Rightarrow 0 < \frac{\rho\phi_c\hat\phi_c}{\lambda + \hat\phi_c^2} < 1", "proved", premises=("lemma1",), origin="ours",
+             note="Four times the least lambda; the theorem does not need it.")
+def sign_is_kept() -> Goal:
     """The square (phi_hat - rho phi_c/2)^2 does it."""
-    return Goal((greater(contraction, 0), less(contraction, 1)),
-                (at_most(phi_c, p), greater(lamda, rho**2 * p**2 / 4)),
-                lemmas=contraction_lemmas)
+    return Goal((greater(contraction, 0), less(contraction, 1)), (at_most(phi_c, p), greater(lamda, rho**2 * p**2 / 4)),
+                lemmas=(greater(4 * lamda, rho**2 * phi_c**2), greater(lamda + phi_hat**2, rho * phi_c * phi_hat)))
 
 
-lowest = rho * epsilon_bar * epsilon / (lamda + phi_upper**2)
-uniform_lemmas = (at_least(phi_c * phi_hat, epsilon_bar * epsilon), at_least(phi_upper**2, phi_hat**2))
+lowest = rho * epsilon_bar * least_estimate / (lamda + phi_upper**2)
 
 
 @paper.claim("theorem1.low", "The contraction is uniform", "implication",
-             r"\phi_c > \bar\varepsilon,\ \varepsilon < \hat\phi_c \le \Phi \Rightarrow \frac{\rho\phi_c\hat\phi_c}{\lambda + \hat\phi_c^2} \ge "
-             r"\frac{\rho\bar\varepsilon\varepsilon}{\lambda + \Phi^2}", "proved", premises=("13.mended", "theorem1.estimate.bounded"), origin="ours")
+             r"\phi_c > \bar\varepsilon,\ m = \min(\varepsilon, \hat\phi_c(k,1)) \le \hat\phi_c \le \Phi \Rightarrow \frac{\rho\phi_c\hat\phi_c}{\lambda + \hat\phi_c^2} \ge "
+             r"\frac{\rho\bar\varepsilon m}{\lambda + \Phi^2}", "proved", premises=("13.mended", "theorem1.estimate.bounded"), origin="ours")
 def contraction_uniform() -> Goal:
     """Numerator and denominator one by one."""
-    return Goal((at_least(contraction, lowest),), (greater(phi_c, epsilon_bar), greater(phi_hat, epsilon), at_most(phi_hat, phi_upper)),
-                lemmas=uniform_lemmas)
+    return Goal((at_least(contraction, lowest),), (greater(phi_c, epsilon_bar), at_least(phi_hat, least_estimate), at_most(phi_hat, phi_upper)),
+                lemmas=(at_least(phi_c * phi_hat, epsilon_bar * least_estimate), at_least(phi_upper**2, phi_hat**2)))
 
 
 e_learned = sp.Symbol("e_learned", real=True)
 
 
-@paper.claim("theorem1.whole", "From (6), (14) and the assumptions to the contraction, in one certificate", "implication",
-             r"\gamma = 1,\ e(k+1,i-1) \ge 0 \Rightarrow 0 \le e(k+1,i) \le (1 - M_1)e(k+1,i-1),\quad 0 < M_1 = "
-             r"\frac{\rho\bar\varepsilon\varepsilon}{\lambda + \Phi^2} < 1", "proved",
-             premises=("theorem1.step", "lemma1", "13.mended", "theorem1.estimate.bounded"), origin="ours",
-             note="The same with all signs turned for e(k+1,i-1) < 0. Assumptions 2 and 4 enter as epsilon_bar < phi_c <= p. Theorem 1's algebra is sound.")
+@paper.claim("theorem1.whole", "From (6), (14) and the assumptions to the contraction", "implication",
+             r"\gamma = 1 \Rightarrow |e(k+1,i)| \le (1 - M_1)|e(k+1,i-1)|,\quad M_1 = \min\left(\frac{\rho\bar\varepsilon m}{\lambda + \Phi^2}, 2 - s, \tfrac12\right) > 0", "proved",
+             premises=("theorem1.step", "theorem1.lambda", "theorem1.low"), origin="ours", reading="For e(k+1,i-1) >= 0, and with all signs turned for the opposite; M_1 is at most each of the three numbers.",
+             note="Assumptions 2 and 4 enter as epsilon_bar < phi_c <= p. Theorem 1's algebra is sound.")
 def contraction_whole() -> Goal:
-    """theorem1.step at gamma = 1; M_1 written out."""
+    """theorem1.step at gamma = 1, with the bounds of its factor."""
     step, = paper.shown("theorem1.step")
-    positive = {phi: phi_c, phi_i: phi_hat}
-    learned = step.right.xreplace({**positive, gamma: sp.Integer(1)})
-    given = (at_least(e_prev, 0), at_most(phi_c, p), greater(lamda, rho**2 * p**2 / 4), greater(phi_c, epsilon_bar),
-             greater(phi_hat, epsilon), at_most(phi_hat, phi_upper))
-    return Goal((at_least(learned, 0), at_most(learned, (1 - lowest) * e_prev), less(lowest, 1)), given,
-                lemmas=(*contraction_lemmas, *uniform_lemmas, less(contraction, 1), at_least(contraction, lowest)))
+    learned = step.right.xreplace({phi: phi_c, phi_i: phi_hat, gamma: sp.Integer(1)})
+    (_, most), (least,) = paper.shown("theorem1.lambda"), paper.shown("theorem1.low")
+    given = (at_least(e_prev, 0), most, least, at_most(M_1, lowest), less(largest, 2), at_most(M_1, 2 - largest), at_most(2 * M_1, 1))
+    return Goal((at_least(learned, -(1 - M_1) * e_prev), at_most(learned, (1 - M_1) * e_prev), less(M_1, 1)), given,
+                lemmas=(at_least(contraction, M_1), at_most(contraction, 2 - M_1)))
 
 
 def named_contraction() -> tuple[Relation, ...]:
-    """What theorem1.whole shows, with letters for M_1 and for the error after a trial with data."""
-    above, below, below_one = paper.shown("theorem1.whole")
-    names = {above.left: e_learned, 1 - lowest: 1 - M_1, lowest: M_1}
-    return above.subs(names), below.subs(names), below_one.subs(names)
+    """What theorem1.whole shows, with a letter for the error after a trial with data."""
+    below, above, below_one = paper.shown("theorem1.whole")
+    return above.subs({above.left: e_learned}), below.subs({below.left: e_learned}), below_one
 
 
-e_one, e_two = sp.symbols("e_1 e_2", real=True)
+e_one, e_two, e_start = sp.symbols("e_1 e_2 e_0", real=True)
 m_i, m_prev = sp.symbols("m_i m_prev", nonnegative=True)  # E|e| of trials i and i-1
 j, outcomes = sp.symbols("j n")
-root_of_chance, error, shortfall = (sp.IndexedBase(name, real=True) for name in ("r", "e_j", "t"))
+root_of_chance, error, shortfall = (sp.IndexedBase(name, real=True) for name in ("q_j", "e_j", "t_j"))
 
 
 def mean_of(value: sp.Expr) -> sp.Expr:
-    """The mean over the outcomes of the trials before, with the chances r_j^2."""
+    """The mean over the outcomes of the trials before, with the chances q_j^2."""
     return sp.Sum(root_of_chance[j] ** 2 * value, (j, 1, outcomes))
 
 
 @paper.claim("theorem1.mean", "Expectation of the error of the next trial, lengths independent of the error", "implication",
              r"E|e(k+1,i)| \le (1 - p(k+1)M_1)\,E|e(k+1,i-1)|", "proved", premises=("theorem1.whole", "theorem1.step", "gamma.mean"), origin="ours",
              scope="every finite number of outcomes, which lengths with finitely many values make",
-             note="Outcome j of the trials before has the chance r_j^2, the error e_j and, where data arrive, an error that is t_j^2 below the bound of theorem1.whole. "
-                  "Uses that gamma(k+1,i-1) and e(k+1,i-1) are independent, which Assumption 3 does not say: theorem1.lengths.")
+             note="Outcome j of the trials before has the chance q_j^2, an error of the size e_j and, where data arrive, one whose size is t_j^2 below the bound of theorem1.whole. "
+                  "Uses that gamma(k+1,i-1) and e(k+1,i-1) are independent, which Assumption 3 does not say: A3.independent.")
 def expected_step() -> Goal:
     """With data theorem1.whole, without data theorem1.step keeps the error."""
-    bound = named_contraction()[1].right.xreplace({e_prev: error[j]})
+    bound = named_contraction()[0].right.xreplace({e_prev: error[j]})
     after = p_k * mean_of(bound - shortfall[j] ** 2) + (1 - p_k) * mean_of(error[j])
     return Goal((at_most(after, (1 - p_k * M_1) * mean_of(error[j])),), (at_least(p_k, 0),))
 
@@ -149,14 +155,35 @@ geometric_term = sp.Symbol("theta", nonnegative=True)
 THEOREM = r"\exists \lambda_{\min} > 0:\ \lambda > \lambda_{\min} \Rightarrow \lim_{i \rightarrow \infty} E\{e(k, i)\} = 0"
 
 
+@paper.claim("A3.independent", "The lengths of different trials are independent of each other", "implication",
+             r"E\{\gamma(k+1,i-1)\,e(k+1,i-1)\} = p(k+1)\,E\{e(k+1,i-1)\}", "gap", origin="implied", rests_on=("A3", "gamma.mean"), premises=("theorem1.step",),
+             reading="The step from one expected error to the next, in which gamma(k+1,i-1) and the error that the trials before have left are taken as independent. Asked where all trials "
+                     "have the same random length, T_i = T_1, as Assumption 3 allows: after the first trial the error is (1 - g) e_0 with the probability p(k+1), and then data arrive again, else e_0.",
+             correction=lambda: _next_mean(p_k), corrected_statement=r"P[T_i = T_{\min} + l\,|\,T_1, \dots, T_{i-1}] = p_l,\ 0 \le p_l < 1,\ p_{T_d - T_{\min}} > 0 \Rightarrow "
+                                                                    r"E\{\gamma(k+1,i-1)\,e(k+1,i-1)\} = p(k+1)\,E\{e(k+1,i-1)\}",
+             note="Assumption 3 gives the distribution of each T_i, not their dependence; the paper certainly means independent lengths. Without them the theorem fails: theorem1.lengths.")
+def lengths_are_independent() -> Goal:
+    """Where trial i-1 is as long as the first one, data arrive just where they did."""
+    return _next_mean(sp.Integer(1))
+
+
+def _next_mean(again: sp.Expr) -> Goal:
+    """E{gamma e} and p E{e} after one trial; `again` is the chance of data where they have arrived before, and as it is where they have not."""
+    learned, kept = (1 - g) * e_start, e_start
+    not_again = (p_k - p_k * again) / (1 - p_k)  # so that gamma is 1 with the probability p in all
+    together = p_k * again * learned + (1 - p_k) * not_again * kept
+    return Goal((equal(together, p_k * (p_k * learned + (1 - p_k) * kept)),), (greater(p_k, 0), less(p_k, 1), less(g, 1)))
+
+
 @paper.claim("theorem1", "Theorem 1: under Assumptions 1 to 4 the expected error converges to zero", "limit", THEOREM, "refuted",
-             premises=("theorem1.step", "13", "14"), rests_on=("A1", "A2", "A3", "A4", "6", "6.unchanged", "13.keeps", "14", "15", "gamma.positive", "gamma.mean"),
+             premises=("theorem1.step", "13", "14"), rests_on=("6", "6.unchanged", "13.keeps", "14", "15", "gamma.positive", "gamma.mean", "A3.independent"),
              severity="result", closed_loop=True,
-             reading="A motion of (6), (13)-(15) that is the same in every trial has no error; k <= T_min, so that no trial ends before (gamma = 1).",
-             note="The paper asks nothing of the first estimate. With phi_hat(k,1) = 0 the reset (13) puts 0 back in every trial, and the error stays as it is. With one of the wrong sign "
-                  "(13) keeps the sign wrong, and the error grows in every trial (theorem1.sign). Two more conditions are missing: the lengths of different trials are independent "
-                  "(theorem1.lengths) and the longest one occurs (gamma.positive). With a first estimate above epsilon and both of them the theorem holds for the data model: theorem1.mended. "
-                  "What it says of the train is another matter: conclusion.")
+             reading="A motion of (6), (13)-(15) that is the same in every trial has no error; k <= T_min, so that no trial ends before (gamma = 1). The assumptions are those of the theorem.",
+             note="Take v(k+1) = 2u(k), which meets Assumptions 1, 2 and 4, and phi_hat(k,1) = 0, of which the paper asks nothing: (14) does not move the input, (13) puts 0 back in every trial, and the error stays "
+                  "as it is, for every lambda (theorem1.frozen). With a first estimate of the wrong sign (13) keeps the sign wrong, and the error grows in every trial (theorem1.sign). Independence of the lengths "
+                  "is missing too (A3.independent). With a positive first estimate and independent lengths the theorem holds for the systems of which it speaks: theorem1.mended. The paper prints no proof, it "
+                  "refers to [22]; the steps here are those that its equations force. What v and e are for k > T_i, where trial i has ended, it does not say either: they are taken as what (6) makes of them. "
+                  "That the train is such a system is another matter, see remark2.inherent and A4.train.")
 def constant_error() -> Goal:
     """The printed loop in two trials that are equal: (14), and (13) with Delta u = 0, whose second test fires."""
     law, = paper.shown("14")
@@ -165,6 +192,16 @@ def constant_error() -> Goal:
     same_in_every_trial = (equal(law.right.xreplace(in_use), u_prev), equal(step.right.xreplace(in_use), e_prev))
     assumptions = (greater(phi, epsilon_bar), at_most(phi, p), greater(lamda, rho**2 * p**2 / 4), at_most(rho, 1))
     return Goal((equal(e_prev, 0),), (*same_in_every_trial, *assumptions))
+
+
+@paper.claim("theorem1.frozen", "With a first estimate of zero the input never changes, whatever lambda", "implication",
+             r"\hat\phi_c(k,1) = 0 \Rightarrow u_f(k,i) = u_f(k,i-1)\ \forall\lambda > 0", "proved", premises=("13", "14"), origin="ours",
+             note="For every rho and every error. The input change is 0, so that the second test of (13) fires and puts 0 back.")
+def frozen_input() -> Goal:
+    """(14) with the estimate after a reset."""
+    law, = paper.shown("14")
+    reset, = paper.shown("13")
+    return Goal((equal(law.right.xreplace({phi_i: reset.left}), u_prev),), (reset, equal(phi_first, 0)))
 
 
 @paper.claim("theorem1.sign", "A first estimate of the wrong sign makes the error grow in every trial", "implication",
@@ -181,25 +218,29 @@ def wrong_sign() -> Goal:
 @paper.claim("theorem1.lengths", "With one and the same random length in all trials the expected error does not vanish", "limit",
              r"T_i = T_1\ \forall i \Rightarrow \lim_{i\to\infty}E\{e(k,i)\} = 0", "gap", premises=("theorem1.step",), origin="ours",
              note="Assumption 3 gives the distribution of each T_i, not their dependence. If all trials have one and the same random length, k "
-                  "is reached in all of them or in none, and E{e(k,i)}/e_0 = (1-p) + p (1-g)^i does not go to zero (theta is (1-g)^i). The paper certainly means independent lengths.")
+                  "is reached in all of them or in none, and E{e(k,i)}/e_0 = (1-p) + p (1-g)^i does not go to zero (theta is (1-g)^i).")
 def same_length_always() -> Goal:
     """E{e}/e_0 when T_i = T_1 for all i, from the trial on at which (1-g)^i <= delta."""
     mean = (1 - p_k) + p_k * geometric_term
     return Goal((at_most(mean, 2 * delta),), (greater(p_k, 0), less(p_k, 1), at_most(geometric_term, delta)))
 
 
-@paper.claim("theorem1.mended", "Theorem 1 with its missing conditions, for the data model", "limit",
-             r"\lambda > \tfrac14\rho^2p^2,\ \hat\phi_c(k,1) > \varepsilon,\ T_1, T_2, \ldots\ \text{independent},\ p_{T_d - T_{\min}} > 0 \Rightarrow "
-             r"\lim_{i\to\infty}E|e(k,i)| = 0,\ k \ge 1", "proved", premises=("theorem1.mean", "theorem1.whole", "gamma.positive.mended", "13.mended", "theorem1.estimate.bounded"),
+@paper.claim("theorem1.mended", "Theorem 1 with its missing conditions, for the systems of which it speaks", "limit",
+             r"\text{Assumptions 1 to 4},\ \rho, \eta \in (0, 1],\ \mu > 0,\ \lambda > \tfrac{1}{16}\rho^2p^2,\ \hat\phi_c(k,1) > 0,\ T_1, T_2, \ldots\ \text{independent},\ p_{T_d - T_{\min}} > 0 \Rightarrow "
+             r"E|e(k,i)| \le (1 - p(k)M_1)^i\,E|e(k,0)| \to 0,\ k \ge 1", "proved",
+             premises=("theorem1.mean", "theorem1.whole", "gamma.positive.mended", "13.mended", "theorem1.estimate.bounded"),
              rests_on=(), origin="ours", severity="result", mends="theorem1",
-             note="m is E|e|, which is at least |E e|. Decided as the step of m_i <= m_0/(1 + p M_1 i), with the trial named from which on m is below delta. The assumptions on lambda, the first "
-                  "estimate, phi_c and the distribution are those under which the premises are proved.")
+             reading="m_i is E|e(k,i)|, which is at least |E e(k,i)|, and theta is (1 - p M_1)^(i-1). Decided as the step of m_i <= (1 - p M_1)^i m_0 and of (1 - p M_1)^i <= 1/(1 + p M_1 i), with the trial from which on m is below delta.",
+             note="For the systems that meet the assumptions. The train is none, see theorem1.train. E{e} alone could be zero while e is not, see 6.aim; E|e| goes to zero like a geometric series, "
+                  "so that e itself does with probability one, by Markov's inequality and the lemma of Borel and Cantelli.")
 def expectation_converges() -> Goal:
-    """The bound m_0/(1 + p M_1 i) carries over to i+1, and is below delta for i >= m_0/(p M_1 delta)."""
-    rate = p_k * M_1
+    """Both bounds carry over to the next trial, and the second one is below delta/m_0 for i >= m_0/(p M_1 delta)."""
+    rate, before = p_k * M_1, i_trial - 1
     below_one = named_contraction()[-1]
     mean, = paper.shown("theorem1.mean")
-    given = (mean.subs({mean.left: m_i, mean_of(error[j]): m_prev}), *paper.shown("gamma.positive.mended"), below_one,
-             at_most(m_prev, m_0 / (1 + rate * i_trial)), at_least(i_trial, m_0 / (rate * delta)))
-    return Goal((at_most(m_i, m_0 / (1 + rate * (i_trial + 1))), at_most(m_prev, delta)), given,
-                lemmas=(less(rate, 1), at_most((1 + rate * i_trial) * m_prev, m_0), at_least(rate * i_trial * delta, m_0)))
+    given = (mean.subs({mean.left: m_i, mean_of(error[j]): m_prev}), *paper.shown("gamma.positive.mended"), below_one, at_least(i_trial, 1),
+             at_most(m_prev, geometric_term * m_0), at_most(geometric_term * (1 + rate * before), 1), at_least(i_trial, m_0 / (rate * delta)))
+    return Goal((at_most(m_i, (1 - rate) * geometric_term * m_0), at_most((1 - rate) * geometric_term * (1 + rate * i_trial), 1), at_most(m_i, delta)), given,
+                lemmas=(less(rate, 1), at_most((1 - rate) * m_prev, (1 - rate) * geometric_term * m_0), at_most(m_i, (1 - rate) * geometric_term * m_0),
+                        at_most((1 - rate) * (1 + rate * i_trial), 1 + rate * before), at_most((1 - rate) * geometric_term * (1 + rate * i_trial), geometric_term * (1 + rate * before)),
+                        at_least(rate * i_trial * delta, m_0), at_most((1 - rate) * geometric_term * rate * i_trial, 1), at_most((1 - rate) * geometric_term * m_0, delta)))

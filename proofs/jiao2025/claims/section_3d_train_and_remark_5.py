@@ -8,25 +8,17 @@ import sympy as sp
 
 from workbench.proof.claim import Goal, Relation, at_least, at_most, differ, equal, greater, less
 
-from ..laws import e_prev, epsilon, input_step, lamda, phi_first, rho
-from ..notation import Delta_v_k, p_k, v_d
+from ..laws import e_next, e_prev, epsilon, input_step, lamda, phi_first, phi_i, rho
+from ..notation import p_k, v_d
 from ..paper import paper
 from ..plant import M, T_s, next_speed, u_i, u_prev, v_i
-from ..stated_values import EVERY_LENGTH, STATED, TRIALS, Reading, newton, per_mass, per_mass_1s, stated
+from ..stated_values import STATED, TRIALS, Reading, newton, per_mass, per_mass_1s, stated
 from .section_2a_train import a, b, f_a_i, f_a_prev
-from .section_2b_data_model import damped
 from .section_3c_theorem_1 import (
     contraction,
-    error,
     g,
-    geometric_term,
-    j,
     lambda_min_exists,
-    m_i,
-    m_prev,
-    mean_of,
     phi_hat,
-    shortfall,
 )
 
 
@@ -43,69 +35,17 @@ def error_doubles() -> Goal:
     return Goal((equal(after, -2 * e_prev),), (greater(a, 0), differ(e_prev, 0)))
 
 
-@paper.claim("conclusion", "Section 5: the analysis shows that the train's expected error converges", "limit",
+@paper.claim("conclusion", "the analysis shows that the train's expected error converges", "limit",
              r"\text{strict theoretical analysis shows that the expectation of the tracking error converges asymptotically as the number of trials grows}", "gap",
-             premises=("5.trials", "14"), rests_on=("theorem1", "A2", "A4"), severity="result", match="words",
-             reading="The step of the analysis for the train (1)-(3): the error at each sample shrinks from trial to trial, whatever lambda.",
-             note="Section 5 says it of the train's system, of which nothing is known. The analysis needs Assumptions 2 and 4, which the train breaks, so that the error of a sample may double. "
-                  "The limit itself holds under the conditions of theorem1.train, by another proof.")
+             premises=("1", "13", "14"), rests_on=("theorem1", "remark2.inherent", "A4.train"), severity="result", match="words",
+             reading="For the train (1)-(3), of which section 5 speaks: a motion under (13)-(15) that is the same in every trial has no error.",
+             note="The analysis is Theorem 1, and the train meets neither Assumption 2 nor Assumption 4. As there, a first estimate of zero keeps the input for ever. The limit "
+                  "itself holds for the train under the conditions of theorem1.train, by another proof; the way there may lead through much larger errors (intro.growth).")
 def analysis_of_the_train() -> Goal:
-    """5.trials with the step of (14)."""
-    step = input_step(phi_hat, e_prev)
-    after = e_prev - (a * Delta_v_k + b * step)
-    return Goal((at_most(after**2, e_prev**2),), damped)
-
-
-share = sp.Symbol("gamma_01", real=True)
-
-
-@paper.claim("theorem1.train.step", "The train's error of the next trial, one sample", "inequality",
-             r"|e(k+1,i)| \le |1 - \gamma g|\,|e(k+1,i-1)| + |\Delta v(k,i)|", "proved", premises=("5.trials", "14"), origin="ours",
-             note="g = (T_s/M) rho phi_hat/(lambda + phi_hat^2), for any estimate; 0 <= a <= 1.")
-def train_error_step() -> Goal:
-    """The triangle inequality on e - a Delta v(k) - gamma g e."""
-    after = e_prev - (a * Delta_v_k + g * share * e_prev)
-    return Goal((at_most(sp.Abs(after), sp.Abs(1 - share * g) * sp.Abs(e_prev) + sp.Abs(Delta_v_k)),), damped)
-
-
-least = sp.Symbol("d", positive=True)  # what every estimate in use takes at least from the error: |1 - g| <= 1 - d
-disturbance, slack = (sp.IndexedBase(name, real=True) for name in ("z_j", "s"))
-
-
-@paper.claim("theorem1.train.mean", "The train's expected error of the next trial, one sample", "implication",
-             r"|1 - g| \le 1 - d \Rightarrow E|e(k+1,i)| \le (1 - p(k+1)d)\,E|e(k+1,i-1)| + E|\Delta v(k,i)|", "proved",
-             premises=("theorem1.train.step", "gamma.mean"), origin="ours", scope="every finite number of outcomes, which lengths with finitely many values make",
-             note="As theorem1.mean: outcome j has the chance r_j^2, the error e_j, the change z_j of the speed before, and errors that are t_j^2 and s_j^2 below the bounds of "
-                  "theorem1.train.step with and without data. gamma(k+1,i-1) is independent of the outcome.")
-def train_expected_step() -> Goal:
-    """Both values of gamma, probabilities multiplied."""
-    with_data = (1 - least) * error[j] + disturbance[j] - shortfall[j] ** 2
-    without_data = error[j] + disturbance[j] - slack[j] ** 2
-    after = p_k * mean_of(with_data) + (1 - p_k) * mean_of(without_data)
-    return Goal((at_most(after, (1 - p_k * least) * mean_of(error[j]) + mean_of(disturbance[j])),), (at_least(p_k, 0), at_most(p_k, 1)))
-
-
-r_rate, c_rate, Z, C = sp.symbols("r c Z C", positive=True)
-z_now = sp.Symbol("z", nonnegative=True)
-
-
-@paper.claim("theorem1.train", "The train's expected errors converge, sample after sample", "implication",
-             r"c = 1 - p(k+1)d < r < 1,\ E|\Delta v(k,i)| \le Zr^i \Rightarrow E|e(k+1,i)| \le Cr^i,\ "
-             r"E|\Delta v(k+1,i)| \le 2Cr^{i-1}", "proved", premises=("theorem1.train.mean",), rests_on=(), scope=EVERY_LENGTH, origin="ours", severity="result",
-             mends="conclusion",
-             note="Not the paper's argument, and what is left of Theorem 1 for the train: for estimates that stay between two bounds with |1 - g| < 1 there, 0 <= a <= 1, independent lengths, the same start "
-                  "and f_a in every trial, d = min(g, 2-g) > 0 over them and p(k+1) > 0; induction over k with C >= m_0 and C >= Z r/(r - c). So the limit exists, but C grows from "
-                  "sample to sample: see intro.growth. theta is r^(i-1).")
-def train_converges() -> Goal:
-    """One trial on, in powers of r; then the difference that the next sample is disturbed by."""
-    power = geometric_term
-    mean, = paper.shown("theorem1.train.mean")
-    bounded = mean.subs({mean.left: m_i, mean_of(error[j]): m_prev, mean_of(disturbance[j]): z_now})
-    given = (less(c_rate, r_rate), less(r_rate, 1), at_most(m_prev, C * power), at_most(z_now, Z * r_rate * power),
-             at_least(C * (r_rate - c_rate), Z * r_rate), bounded, at_least(c_rate, 1 - p_k * least))
-    return Goal((at_most(m_i, C * r_rate * power), at_most(m_i + m_prev, 2 * C * power)), given,
-                lemmas=(at_most(m_i, c_rate * m_prev + z_now), at_most(c_rate * m_prev, c_rate * C * power), at_least(C * (r_rate - c_rate) * power, Z * r_rate * power),
-                        at_most(m_i, C * r_rate * power), at_most(C * r_rate * power, C * power)))
+    """The train in two trials that are equal, by (14) with the estimate after a reset."""
+    law, = paper.shown("14")
+    same = law.right.xreplace({e_next: e_prev, phi_i: phi_first})
+    return Goal((equal(e_prev, 0),), (equal(e_prev, v_d - next_speed(v_i, u_prev)), equal(same, u_prev), greater(v_d, 0), at_least(v_i, 0), at_most(rho, 1)))
 
 
 c_shift = sp.Symbol("v_0", real=True)
@@ -120,6 +60,8 @@ def alternating_start() -> Goal:
     return Goal((equal(-alternating, (1 - g) * alternating - a * 2 * c_shift),), (less(g, 2),))
 
 
+bound, gain_most = sp.symbols("delta G", positive=True)
+gain_used = sp.Symbol("g_used", real=True)  # b times the factor of (14)
 coasted_odd, coasted_even = sp.symbols("w_odd w_even", real=True)  # what (1) makes of the initial speed without an input
 
 
@@ -131,13 +73,28 @@ def _odd_and_even() -> tuple[sp.Expr, tuple[Relation, ...]]:
     return even, (equal(step + input_step(phi_first, even), 0), at_most(step**2, epsilon**2))  # the second test of (13): the estimate in use is the first one
 
 
-@paper.claim("remark5", "Remark 5: identical initial conditions are not needed", "limit",
-             r"\text{the convergence analysis does not need identical initial conditions, so the design relaxes the basic assumption of strictly identical initial conditions}", "refuted",
-             premises=("1", "13", "14"), rests_on=("theorem1", "6"), severity="result", closed_loop=True, match="words",
+@paper.claim("remark5.always", "While initial speeds alternate the errors of two trials are never both small", "implication",
+             r"|e(1,i-1)|, |e(1,i)| \le \delta \Rightarrow |w_{\text{even}} - w_{\text{odd}}| \le (2 + G)\,\delta,\ G = \max_{\hat\phi}\tfrac{T_s}{M}\tfrac{\rho\hat\phi}{\lambda + \hat\phi^2}", "proved",
+             premises=("1", "14"), origin="ours",
+             note="For every lambda, rho, epsilon and every sequence of estimates: by (14) the input no longer changes when the error is gone, and then the speed changes by what the start does.")
+def never_both_small() -> Goal:
+    """Two successive trials of the first sample; G bounds the gain of (14)."""
+    odd, even = v_d - (coasted_odd + u_prev * b), v_d - (coasted_even + b * u_prev + gain_used * e_prev)
+    small = (at_most(e_prev, bound), at_least(e_prev, -bound), at_most(even, bound), at_least(even, -bound))
+    reach = (2 + gain_most) * bound
+    return Goal((at_most(coasted_even - coasted_odd, reach), at_least(coasted_even - coasted_odd, -reach)),
+                (equal(e_prev, odd), *small, at_least(gain_used, 0), at_most(gain_used, gain_most)),
+                lemmas=(at_most(gain_used * e_prev, gain_most * bound), at_least(gain_used * e_prev, -gain_most * bound)))
+
+
+@paper.claim("remark5", "Remark 5: the design relaxes the assumption of identical initial conditions", "limit",
+             r"\text{this design can relax the basic assumption of ILC systems that the initial conditions need to be strictly identical}", "refuted",
+             premises=("1", "13", "14"), rests_on=("remark2.inherent", "6"), severity="result", closed_loop=True, match="words",
              reading="A motion of the train (1)-(3) under (13)-(15) that repeats itself every second trial has no error at the first sample, whatever its initial speeds.",
-             note="With initial speeds that alternate between two values the error at the first sample alternates and never shrinks (its size for a fixed estimate: remark5.persists). The input "
-                  "changes by at most epsilon, so that (13) puts the first estimate back in every trial and the motion is exact. The proof does not see it because "
-                  "(5) takes all of Delta v(1,i) for an effect of Delta u(0,i).")
+             note="Say the error at the first sample vanished while the initial speeds alternate between two values. By (14) the change of u(0,i) would vanish with it, and Delta v(1,i) would come down to what the start "
+                  "alternates by, which is not zero: so the error does not vanish, whatever lambda, rho, epsilon and the estimates are (remark5.always; its size for a fixed estimate: remark5.persists). In the motion "
+                  "here the input changes by at most epsilon, so that (13) puts the first estimate back in every trial. That the convergence analysis does not need identical starts, as the remark says "
+                  "before, is true of systems that meet Assumption 2, by which Delta v(1,i) comes from Delta u(0,i) alone; the train is none.")
 def start_does_not_matter() -> Goal:
     """Both trials of the motion, by (1) and (14); the first estimate is above epsilon."""
     error, loop = _odd_and_even()
@@ -148,14 +105,15 @@ def start_does_not_matter() -> Goal:
 @paper.claim("remark5.distribution", "Remark 5: the condition of convergence does not depend on p(k)", "implication",
              r"\text{the convergence condition of this paper has nothing to do with the probability distribution } p(k)", "proved", premises=("theorem1.lambda",),
              rests_on=("theorem1",), severity="result", match="words",
-             reading="One lambda_min, rho^2 p^2/4, serves every p(k) in (0, 1]: the factor of the expected error lies in [0, 1).",
-             note="p(k) must be above zero, which Assumption 3 does not give: gamma.positive. The rate does depend on it: remark5.end. Assumption 3 and Remark 3 take the distribution "
+             reading="One lambda_min, rho^2 p^2/16, serves every p(k) in (0, 1]: the factor of the expected size of the error, p(k)|1 - c| + 1 - p(k) with the c of theorem1.lambda, is below 1. Both signs of 1 - c stand.",
+             note="p(k) must be above zero, as the definition of gamma has it. The rate does depend on it: remark5.end. Assumption 3 and Remark 3 take the distribution "
                   "as known; no law uses it.")
 def any_distribution() -> Goal:
-    """1 - p(k) g for every p(k), by theorem1.lambda."""
-    factor = 1 - p_k * contraction
+    """p(k)|1 - c| + 1 - p(k) for every p(k), by theorem1.lambda."""
     given = (*lambda_min_exists().assume, *paper.shown("theorem1.lambda"), greater(p_k, 0), at_most(p_k, 1))
-    return Goal((at_least(factor, 0), less(factor, 1)), given, lemmas=(greater(p_k * contraction, 0), at_most(p_k * contraction, contraction)))
+    missed = 1 - p_k
+    return Goal((less(p_k * (1 - contraction) + missed, 1), less(p_k * (contraction - 1) + missed, 1)), given,
+                lemmas=(greater(p_k * contraction, 0), less(contraction, 2), greater(p_k * (2 - contraction), 0)))
 
 
 @paper.claim("remark5.end", "Expected error at the last sample after 150 trials", "condition",
@@ -182,18 +140,18 @@ def _lambda_condition(reading: Reading, quarter: int, holds: bool, note: str) ->
     suffix = {4: "", 16: ".contracts"}[quarter]
     sign, than = (">", "< 1" if quarter == 4 else "< 2") if holds else (r"\le", r"\ge 1" if quarter == 4 else r"\ge 2")
     what = "meet" if holds else "miss"
+    asked = "what keeps the error's sign" if quarter == 4 else "what theorem1.lambda asks"
 
-    @paper.claim(f"theorem1.stated.{reading.suffix}{suffix}", f"The stated lambda and rho {what} theorem1.lambda{suffix} ({reading.title})", "condition",
+    @paper.claim(f"theorem1.stated.{reading.suffix}{suffix}", f"The stated lambda and rho {what} {asked} ({reading.title})", "condition",
                  rf"\lambda {sign} \tfrac{{1}}{{{quarter}}}\rho^2b^2\ \Leftrightarrow\ \max_{{\hat\phi}}"
                  rf"\frac{{\rho b\hat\phi}}{{\lambda + \hat\phi^2}} {than}", "proved", origin="ours",
-                 premises=("theorem1.lambda",), at={**stated(rho, lamda), b: reading.gain}, note=note)
+                 premises=("theorem1.lambda", "theorem1.lambda.sign"), at={**stated(rho, lamda), b: reading.gain}, note=note)
     def lambda_is_large_enough() -> Goal:
         limit = rho**2 * b**2 / quarter
         return Goal((greater(lamda, limit) if holds else at_most(lamda, limit),))
 
 
 _lambda_condition(newton, 4, True, "b = T_s/M is the least that p can be; for the train with its memory no p is enough (A2.every).")
-_lambda_condition(per_mass, 4, False, "The paper prints no value of lambda_min; this is the one that theorem1.lambda gives, with p = b = 0.1, the "
-                  "least possible. The error may change its sign from trial to trial; it still shrinks (next claim).")
-_lambda_condition(per_mass, 16, True, "|1 - g| < 1 for every positive estimate, at this one sample.")
+_lambda_condition(per_mass, 4, False, "With p = b = 0.1, the least possible: the error may change its sign from trial to trial; it still shrinks (next claim).")
+_lambda_condition(per_mass, 16, True, "The paper prints no value of lambda_min; this is that of theorem1.lambda. |1 - g| < 1 for every positive estimate, at this one sample.")
 _lambda_condition(per_mass_1s, 16, False, "At the estimate phi_hat = sqrt(lambda) the error of the first sample is multiplied by about -16 in every trial.")

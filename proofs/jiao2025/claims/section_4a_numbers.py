@@ -86,7 +86,8 @@ def first_step_infeasible() -> Goal:
              r"k \in \{0, 1, \dots, T_d\},\ T_s = 0.1\,\text{s},\ T_d = 2000\,\text{s}", "violated",
              at={**stated(T_s), T_d: Fraction(2000)}, repair={T_s: Fraction(1), T_d: Fraction(2000)},
              reading="The steps of (1), each of the length T_s, make the duration T_d of the trip.",
-             note="k in {0, ..., T_d} counts steps of (1), each T_s = 0.1 s long, and (16), T_d and T_i take it for seconds. Over 2000 steps of 0.1 s the trip takes 200 s.")
+             note="k in {0, ..., T_d} counts steps of (1), each T_s = 0.1 s long, and (16), T_d and T_i take it for seconds. Over 2000 steps of 0.1 s the trip takes 200 s. "
+                  "Either T_s is 1 s or the trip has 20,000 steps, with k/10 in (16) and (17).")
 def steps_make_the_trip() -> Goal:
     """Steps times their length."""
     return Goal((equal(LENGTH * T_s, T_d),))

@@ -29,7 +29,7 @@ def pd_law() -> Goal:
 
 
 @paper.claim("18.name", "(18) is of PD type: K_p is the gain of the error, K_d that of its difference", "identity",
-             r"\text{the improved PD-type ILC is designed as (18)}", "refuted", premises=("18",), severity="cosmetic", match="words",
+             r"\text{the improved PD-type ILC is designed as (18)}", "refuted", premises=("18",), severity="cosmetic", match="words", origin="ours",
              reading="A matter of the name alone, since (18) says what the law is: a PD law moves the input by K_p e*(k) + K_d [e*(k+1) - e*(k)].",
              correction=lambda: Goal((equal(u_i - u_prev, (K_p + K_d) * e_now + K_p * (e_next - e_now)),), paper.shown("18")),
              corrected_statement=r"u_f(k,i) - u_f(k,i-1) = (K_p + K_d)\,e^*(k,i-1) + K_p[e^*(k+1,i-1) - e^*(k,i-1)]",

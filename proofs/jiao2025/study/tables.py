@@ -99,14 +99,14 @@ def growth(results: JiaoResults) -> ResultTable:
         b = reading.step_s * reading.unit_n / mass
         gain = learning.rho * b**2 / (learning.lamda + b**2)
         samples = len(desired_trip(results.study, reading)[0]) - 1
-        limit = learning.rho**2 * b**2 / 4
+        limit = learning.rho**2 * b**2 / 16
         fixed, adapted = (results.run(name, law) for law in ("jiao2025.fixed_estimate", ICFDL))
         rows.append((
             reading.title, b, Phrase("{} (met)" if learning.lamda > limit else "{} (not met)", (limit,)), gain,
             gain * samples * (samples + 1) / 2, _ratio(fixed), _ratio(adapted), _first_sample(fixed, gain)))
     return ResultTable(
         "Growth before convergence", "claims theorem1.lambda, intro.small, intro.growth, theorem1.train",
-        ("Reading", "b = dv(k+1)/du(k)", "λ_min = ρ²b²/4 (stated λ)", "g at φ̂ = b", "gN(N+1)/2 (monotone if ≤ 1)",
+        ("Reading", "b = dv(k+1)/du(k)", "λ_min = ρ²b²/16 (stated λ)", "g at φ̂ = b", "gN(N+1)/2 (monotone if ≤ 1)",
          "Largest error norm over the first: φ̂ kept at b", "the same: iCFDL-MFAILC",
          Column("Error left at the first sample, % (by (1−g)^i)", digits=5)), tuple(rows),
         "The law that keeps φ̂ = b runs over whole trials, all met by the same resistance, the case of the claims. "

@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 import sympy as sp
 
-from workbench.proof.claim import D, Goal, equal
+from workbench.proof.claim import D, Goal, at_most, equal
 from workbench.trains.line_resistance import (
     additional_specific_resistance,
     curvature_per_m,
     grade_permille,
     tunnel_n_per_kn,
 )
-from workbench.trains.train import F, a_0, b_0, c_0, f, f_add, m, p, single_particle, u, v
+from workbench.trains.train import F, a_0, b_0, c_0, f_add, m, p, single_particle, v
 
 from ..error_dynamics import plant
 from ..laws import x_1, x_2
 from ..paper import paper
-from ..stated_values import stated_davis
 
 newton = single_particle()
 davis = a_0 + b_0 * v + c_0 * v**2
@@ -77,13 +74,17 @@ def newton_per_mass() -> Goal:
                 flow={x: rate.xreplace({v: x_2}) for x, rate in rates.items()})
 
 
-@paper.claim("A1", "Assumption 1: the train of (4) is input-to-state stable", "condition",
-             r"\text{The dynamics system of train operation given in Equation (4) is an input-state stable system.}", "violated",
-             at={**stated_davis, x_2: Fraction(0), u: Fraction(0), f: Fraction(0)}, match="words",
-             reading="Without input, u = f = 0, an input-to-state stable system rests at the origin.",
-             note="By (2) the resistance does not vanish at standstill, so at the stated a* = 0.3 the train of (4) starts to "
-                  "roll backwards at 0.3 m/s^2. Without a* it would not be stable either: at a constant input it runs on, "
-                  "and x_1 grows beyond every bound. The proof of Theorem 1 does not use Assumption 1.")
-def origin_is_equilibrium() -> Goal:
-    """The origin is an equilibrium of (4) without input."""
-    return Goal((equal(D(x_2), 0),), flow={x_2: plant.rates[x_2]})
+rest_bound = sp.Symbol("gamma", positive=True)
+
+
+@paper.claim("A1", "Assumption 1: the train of (4) is input-to-state stable", "inequality",
+             r"\text{The dynamics system of train operation given in Equation (4) is an input-state stable system.}", "refuted",
+             match="words", reading="A train that a bounded input holds at rest is, wherever it stands, within a bound gamma that the input alone gives.",
+             note="The position is a pure integral of the speed: held by u = a* - f the train of (4) rests at every x_1, and at any larger constant "
+                  "input that it runs with for ever x_1 grows beyond every bound. Nor is the origin a rest without an input: at the stated a* = 0.3 the "
+                  "train of (4) begins to roll backwards at 0.3 m/s^2. The proof of Theorem 1 does not use Assumption 1, and as it supposes 'all assumptions' it would "
+                  "speak of no train with this one: it should be struck from the hypotheses.")
+def position_is_bounded() -> Goal:
+    """The position of a train at rest in (4)."""
+    return Goal((at_most(sp.Abs(x_1), rest_bound),), (equal(x_2, 0), equal(D(x_2), 0)),
+                {x_1: plant.rates[x_1], x_2: plant.rates[x_2]})

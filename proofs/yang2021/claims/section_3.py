@@ -115,7 +115,7 @@ def _momentum(equation: str, step_of: str, printed: str, moved: sp.Expr, hidden:
     stated = moved + descent(hidden) + varpi * (moved - before)
 
     @paper.claim(equation, f"Momentum update of {step_of}", "identity", printed, "proved", scope=EVERY_SIZE,
-                 premises=({"15": "14.glyph"}.get(equation, rests_on[0]),), rests_on=rests_on,
+                 premises=rests_on, rests_on=rests_on,
                  where=letters(hidden) | {f"{letter}(t)": network.with_momentum(moved, gradient, varpi, before),
                                           f"{letter}(t-1)": moved, f"{letter}(t-2)": before, step: descent(hidden)},
                  reading="The left side is the update that the workbench's network makes; the step on the right is -eta "
@@ -130,7 +130,7 @@ _momentum("11", "a weight", r"w_j(t) = w_j(t-1) + \Delta w_j(t) + \varpi[w_j(t-1
 _momentum("13", "a width", r"b_j(t) = b_j(t-1) + \Delta b_j + \varpi[b_j(t-1) - b_j(t-2)]", width, of_width,
           network.width_step(eta, residual(of_width), weight, of_width, squared, width), ("12",))
 _momentum("15", "a center", r"c_{ji}(t) = c_{ji}(t-1) + \Delta c_{ji} + \varpi[c_{ji}(t-1) - c_{ji}(t-2)]", c_ji, of_center,
-          network.center_step(eta, residual(of_center), weight, of_center, x_i, c_ji, width), ("14",))
+          network.center_step(eta, residual(of_center), weight, of_center, x_i, c_ji, width), ("14.glyph",))
 
 
 @paper.claim("15.rates", "The stated learning rate and momentum factor are in range", "condition",
@@ -156,7 +156,8 @@ def same_motion() -> Relation:
              origin="implied",
              note="(10)-(15) are driven by f - f-hat, while f is the unknown that the network is there for and a*, b*, c* are "
                   "unknown too. Two trains with other coefficients and another f move alike, so f cannot be told from the "
-                  "motion, not even with the acceleration measured. Theorem 1 does not use these laws.")
+                  "motion, not even with the acceleration measured. Theorem 1 does not use these laws: (10) to (15) are no part of "
+                  "the controller, whose weights move by (37).")
 def f_is_known() -> Goal:
     """The same input, speed and acceleration mean the same f."""
     return Goal((equal(f_1, f_2),), (same_motion(),))
@@ -165,18 +166,19 @@ def f_is_known() -> Goal:
 one_h = sp.Symbol("h", positive=True)
 
 
-@paper.claim("37.weights", "One law moves the weights", "implication",
-             r"\Delta w_j = \eta[f - \hat{f}]h_j\ \text{and}\ \dot{\hat{W}} = \chi e_2h - \chi\hat{W}", "gap", origin="implied",
+@paper.claim("37.weights", "The weights that (10) and (11) leave as they are rest by (37) too", "implication",
+             r"\hat{f} = f,\ \Delta w_j = \eta[f - \hat{f}]h_j = 0 \Rightarrow \dot{\hat{W}} = \chi e_2h - \chi\hat{W} = 0", "gap", origin="implied",
              severity="data", section="5.1",
-             reading="Taken where the network fits f exactly, so that it does not matter in which steps of time (10) counts.",
-             note="(10), (11) and (37) each give the rate of the same weights, and section 6.1 states eta and the momentum "
+             reading="Where the network fits f exactly the step of (10) is zero, whatever length of time it stands for.",
+             note="(10), (11) and (37) each move the same weights, and section 6.1 states eta and the momentum "
                   "factor of the one beside chi of the other. They are two laws: where the network is exact, (10) leaves the "
-                  "weights as they are and (37) draws them to zero. Which one runs is not said.")
+                  "weights as they are and (37) draws them to zero. Which one runs is not said. The proof of Theorem 1 is of (37), which should be named as the "
+                  "law of the weights; (10) to (15) would be no part of the controller.")
 def one_law() -> Goal:
-    """A step of (10) is in the direction of (37)."""
+    """The rate of (37) where the step of (10) is zero."""
     error_2 = sp.Symbol("e_2", real=True)
-    return Goal((equal(eta * residual(one_h) * one_h, chi * error_2 * one_h - chi * weight),),
-                (greater(eta, 0), less(eta, 1), at_most(one_h, 1), equal(residual(one_h), 0)))
+    return Goal((equal(chi * error_2 * one_h - chi * weight, 0),),
+                (greater(eta, 0), less(eta, 1), at_most(one_h, 1), equal(eta * residual(one_h) * one_h, 0)))
 
 
 f_network = over_neurons(W_star * h) + epsilon

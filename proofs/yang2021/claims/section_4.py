@@ -76,12 +76,16 @@ def bounded_by_decay() -> Goal:
 
 @paper.claim("20.band", "The text after (20): k = 0.21 constrains the position error to 0.2 m", "implication",
              r"\text{the maximum position error is constrained as $e_1(t) = 0.2$, due to $|e_1(t)| < k$; taking $k = 0.21$}", "gap",
-             match="words", reading="|e_1(t)| < k and k = 0.21 bring |e_1(t)| <= 0.2.",
-             note="The barrier at k only keeps the error below 0.21 m.")
+             match="words", reading="|e_1(t)| < k and k = 0.21 bring |e_1(t)| <= 0.2.", correction=lambda: _band(sp.Rational(2, 10)),
+             corrected_statement=r"k = 0.2,\ |e_1(t)| < k \Rightarrow |e_1(t)| \le 0.2",
+             note="The barrier at k only keeps the error below 0.21 m: k = 0.2 would do.")
 def band_from_barrier() -> Goal:
     """|e_1| < 0.21 does not bring |e_1| <= 0.2."""
-    given = (less(sp.Abs(e_1), k), equal(k, sp.Rational(21, 100)))
-    return Goal((at_most(sp.Abs(e_1), sp.Rational(2, 10)),), given)
+    return _band(sp.Rational(21, 100))
+
+
+def _band(barrier_at: sp.Rational) -> Goal:
+    return Goal((at_most(sp.Abs(e_1), sp.Rational(2, 10)),), (less(sp.Abs(e_1), k), equal(k, barrier_at)))
 
 
 def _lemma_2(strict: bool) -> Goal:
@@ -90,11 +94,11 @@ def _lemma_2(strict: bool) -> Goal:
 
 
 @paper.claim("21", "Lemma 2", "inequality",
-             r"\log \frac{k^2}{k^2 - e_1^2} < \frac{e_1^2}{k^2 - e_1^2}", "refuted", severity="result",
+             r"\log \frac{k^2}{k^2 - e_1^2} < \frac{e_1^2}{k^2 - e_1^2}", "refuted", severity="cosmetic",
              correction=lambda: _lemma_2(strict=False),
              corrected_statement=r"\log\frac{k^2}{k^2 - e_1^2} \le \frac{e_1^2}{k^2 - e_1^2}",
              note="Both sides are 0 at e_1 = 0, which the lemma's domain contains. The non-strict form holds and is "
-                  "all that the proof needs.")
+                  "all that the proof needs; the lemma is cited from [28].")
 def lemma_2() -> Goal:
     """The strict inequality as printed."""
     return _lemma_2(strict=True)
@@ -141,4 +145,6 @@ paper.axiom("lemma1", "Lemma 1: a barrier function that obeys (19) keeps the con
             r"\forall t \in [0, \infty)",
             "Ren, Ge, Tee and Lee 2010 (the paper's [28])", hypotheses=("lemma1.0", "20.barrier", "lemma1.2", "51"),
             reading="(19) with what the lemma supposes and concludes; the derivative is by the errors e.",
-            note="It supposes that solutions exist; with the steps of Table 1 in f they do in Caratheodory's sense.")
+            note="As printed it is of a V_1(e_1) + V_2(e_2), for an e of two errors; (38) has those of the estimates too, which lemma1.2 takes into e_2. It does not say that mu is "
+                 "positive, as it must be (49.positive), and the text after (20) writes lambda for l. It supposes that solutions exist; with the steps of Table 1 in f they do in "
+                 "Caratheodory's sense.")

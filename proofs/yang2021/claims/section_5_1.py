@@ -29,8 +29,10 @@ paper.definition("23", "The speed error of the design", r"e_2 = x_2 - r",
 @paper.claim("23.derivative", "The text before (22): e_2 is the derivative of the position error", "identity",
              r"\text{The position tracking error and its derivative signal are defined as follows}", "refuted",
              severity="cosmetic", match="words", reading="The derivative signal of e_1 of (22) is e_2 of (23): e_2 is the rate of e_1.",
-             note="By (23) and (27) e_2 is e_1' + alpha e_1; Lemma 1 calls it the speed error, which it is no more. The proof "
-                  "uses (23) alone.")
+             correction=lambda: Goal((equal(law.e_2, D(law.e_1) + alpha * law.e_1),), flow={x_1: x_2, x_d: xdot_d}),
+             corrected_statement=r"e_2 = x_2 - r = \dot{e}_1 + \alpha e_1",
+             note="A filtered error: by (23) and (27) e_2 is e_1' + alpha e_1. Lemma 1 calls it the speed error, which it is no more: that is "
+                  "e_2 - alpha e_1. The proof uses (23) alone. The sentence before (25) means the differential of e_2 where it writes that of e_2'.")
 def second_error_is_derivative() -> Goal:
     """e_2 of (23) against D(e_1)."""
     return Goal((equal(law.e_2, D(law.e_1)),), flow={x_1: x_2, x_d: xdot_d})

@@ -10,7 +10,7 @@ from workbench.model.law import desired_acceleration as xddot_d
 from workbench.model.law import desired_position as x_d
 from workbench.model.law import desired_speed as xdot_d
 from workbench.model.law import over_neurons
-from workbench.proof.claim import D, Goal, at_least, at_most, equal, greater
+from workbench.proof.claim import D, Goal, at_least, at_most, equal, greater, less
 from workbench.trains.train import a_star, b_star, c_star, f, u
 
 from .. import laws as law
@@ -70,6 +70,14 @@ def rate_of_weight() -> Goal:
     return Goal((equal(D(one_weight), chi * law.e_2 * one_h - chi * one_weight),), flow={one_weight: rate})
 
 
+@paper.claim("37.steady", "Where (37) rests the network is a proportional gain", "identity", r"\dot{\hat{W}} = 0 \Rightarrow \hat{W}^Th(x) = h(x)^Th(x)\,e_2",
+             "proved", origin="ours", premises=("37",), scope=EVERY_NETWORK, reading="Of one neuron, which stands for each.",
+             note="(37) is a lag of e_2 h, with the time constant 1/chi: it draws the weights to e_2 h, not to W*, and the share W*^2/2 of l is the price, which no gain reduces.")
+def network_at_rest() -> Goal:
+    """The output of one neuron whose weight rests."""
+    return Goal((equal(one_weight * one_h, one_h**2 * law.e_2),), (equal(chi * law.e_2 * one_h - chi * one_weight, 0),))
+
+
 @paper.claim("A3", "Assumption 3: the desired curve and its two derivatives are bounded", "condition",
              r"\text{The desired position $x_d$ and its first-order derivatives $\dot{x}_d$ and second-order derivatives "
              r"$\ddot{x}_d$ are known and bounded.}", "proved", match="words",
@@ -107,6 +115,21 @@ def barrier_term_bounded() -> Goal:
                 lemmas=(at_most(inverse, most / k), at_most(e_1, k), at_least(e_1, -k)))
 
 
+input_limit = sp.Symbol("u_star", positive=True)
+
+
+@paper.claim("A4.limit", "No limit that is known beforehand bounds the input", "implication",
+             r"\tfrac{k}{2} \le e_1 < k,\ 4u^*(k - e_1) \le 1 \Rightarrow \frac{e_1}{k^2 - e_1^2} \ge u^*", "proved", origin="ours",
+             note="For every u* there are errors within the constraint at which the last term of (33) alone is above it. An actuator with a limit cannot follow (33) near "
+                  "the constraint, and then (41) does not hold.")
+def input_exceeds_every_limit() -> Goal:
+    """The last term of (33) close to the constraint."""
+    return Goal((at_least(e_1 / (k**2 - e_1**2), input_limit),),
+                (at_least(2 * e_1, k), less(e_1, k), at_most(4 * input_limit * (k - e_1), 1)),
+                lemmas=(greater(k + e_1, 0), greater((k - e_1) * (k + e_1), 0), greater(k**2 - e_1**2, 0),
+                        at_most(4 * input_limit * (k - e_1) * (k + e_1), k + e_1), at_most(input_limit * (k**2 - e_1**2), e_1)))
+
+
 e_2_signal, rdot = sp.symbols("e_2 rdot", real=True)
 reach = dict(zip((*hats, x_2, rdot, e_2_signal), sp.symbols("A_2 B_2 C_2 X_2 R_2 E_2", nonnegative=True), strict=True))
 weights_reach, hidden_square = sp.symbols("W_2 H", nonnegative=True)
@@ -115,11 +138,11 @@ input_bound = ((reach[a_hat] + 1) / 2 + (reach[b_hat] + reach[x_2]) / 2 + (reach
                + sp.exp(2 * level) / k)
 
 
-@paper.claim("A4", "Assumption 4 follows: the input is bounded", "implication", r"|u| \leq u^*", "proved",
-             premises=("A4.barrier",), rests_on=(), scope=EVERY_NETWORK,
+@paper.claim("33.bounded", "The control law is bounded where what it is made of is", "implication",
+             r"\hat{a}^2 \le A_2, \dots, \hat{W}^T\hat{W} \le W_2,\ \mathbf{h}^T\mathbf{h} \le H,\ V_1 \le B \Rightarrow |u| \le u^*", "proved", origin="ours",
+             premises=("A4.barrier",), scope=EVERY_NETWORK,
              reading="u is (33); u* is made of bounds of the squares of the estimates, speed, virtual acceleration, e_2, weights "
-                     "and Gaussians, and of a bound B of V_1, all of which theorem1.bounded gives.",
-             note="The paper supposes what is for its proof to show; it can be shown. An input that saturates voids (41).")
+                     "and Gaussians, and of a bound B of V_1.")
 def input_bounded() -> Goal:
     """The whole of (33), term by term."""
     last = e_1 / (k**2 - e_1**2)
@@ -128,3 +151,15 @@ def input_bounded() -> Goal:
              at_most(over_neurons(W_hat**2), weights_reach), at_most(over_neurons(h**2), hidden_square), at_most(V_1, level))
     return Goal((at_most(command, input_bound), at_least(command, -input_bound),), (*given, *paper.shown("A4.barrier")),
                 lemmas=(at_most(x_2**4, reach[x_2] ** 2),))
+
+
+@paper.claim("A4", "Assumption 4: the input is bounded", "implication", r"|u| \leq u^*", "proved",
+             premises=("33.bounded",), rests_on=(), scope=EVERY_NETWORK, where={"u^*": input_limit},
+             reading="u is (33), which is not assumed to be bounded, and u* the bound of 33.bounded.",
+             note="The paper supposes what is for its proof to show; it can be shown, objective.input has the bounds that 33.bounded takes. If u* is meant as the limit of an "
+                  "actuator, (33) does not keep it: A4.limit.")
+def input_is_bounded() -> Goal:
+    """Both sides of 33.bounded."""
+    above, below = paper.shown("33.bounded")
+    named = {above.left: u, above.right: input_limit, below.right: -input_limit}
+    return Goal((at_most(sp.Abs(u), input_limit),), (above.subs(named), below.subs(named)))

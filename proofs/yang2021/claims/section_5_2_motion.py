@@ -33,7 +33,8 @@ smallest = sp.Min(2 * alpha, 2 * beta - 1, chi, *(lam * sigma for lam, sigma in 
              scope="every network with one neuron", reading="Along (4) with (27), (33)-(37), for mu of (49) and l of (50).",
              note="(52) lets V stay above l/mu for ever. In the motion the train stands at its desired position, on the center "
                   "of the one neuron, f = W* = a* holds it there exactly (epsilon = 0), and a-hat = W-hat = -exp(-t) cancel in "
-                  "(33) while they fade: V comes down to l/mu, and is above it at all times. True is the limit, 52.T.mended.")
+                  "(33) while they fade: V comes down to l/mu, and is above it at all times. True is the limit, 52.T.mended, and with it (53) to (57), where 'converge to' a set means "
+                  "that the distance to it goes to zero. The step from (52) itself is what fails, with constant coefficients and whichever way (44) is read.")
 def reached_in_finite_time() -> Goal:
     """The loop at rest, with two estimates that fade and cancel."""
     one, zero, fading = sp.Integer(1), sp.Integer(0), sp.exp(-t)
