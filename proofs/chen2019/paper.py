@@ -1,7 +1,7 @@
 """chen2019: the rewriting of the model, every claim of section III, and the stated numbers of section IV.
 
 Y. Chen, D. Huang, T. Huang, N. Qin, Tracking Control via Iterative Learning for High-Speed Trains With Distributed
-Input Constraints, IEEE Access 7 (2019) 84591-84601.
+Input Constraints, IEEE Access 7 (2019) 84591-84601, doi 10.1109/ACCESS.2019.2924435.
 
 Plant, auxiliary system, law and learning rules are the expressions that are simulated (plant.py, laws.py);
 derivatives are written D(...) and derived along the closed loop. What stands on the right of `equal` and `at_most`

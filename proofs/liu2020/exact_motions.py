@@ -1,7 +1,8 @@
 """Exact motions of the closed loops as printed, one neuron each, in which signals grow beyond every bound.
 
-Both rest on the plus sign before the leakage. The driving error stays at c = log(3)/2, where tanh(c) = 1/2, and estimate
-and weight grow as exp(t): what they add to the rate of the error cancels. Networks are exact (delta = theta = 0), priors
+All rest on the plus sign before the leakage. In two of them the driving error stays at c = 30 log(3), where tanh(c/60) = 1/2,
+and estimate and weight grow as exp(t): what they add to the rate of the error cancels. In the other two nothing drives the
+laws, and an estimate alone leaves its prior. Networks are exact (delta = theta = 0), priors
 right, hidden outputs at most 1, and (40) holds. A bounded signal is in the end below t, which the growing ones are not.
 """
 
@@ -21,18 +22,21 @@ from .error_dynamics import (
     w_f,
     w_v,
 )
-from .laws import alpha_2, beta_2, e_v, h_f, h_v, k_1, k_2, k_5, s_tilde, v_tilde
+from .laws import alpha_2, beta_2, e_v, h_f, h_v, k_1, k_2, k_5, kappa_1, kappa_2, s_tilde, v_tilde
 
 UPDATE_SIGNAL = D(s_tilde) + k_1 * s_tilde  # of (19)-(21), as it is printed
 
-held = sp.log(3) / 2  # tanh(held) = 1/2
+held, kappa = 30 * sp.log(3), sp.Integer(60)  # m/s; tanh(held/kappa) = 1/2
 hidden_f, hidden_v, weight_f, weight_v = map(one_neuron, (h_f, h_v, w_f, w_v))
 
 _observer = {s_tilde: held / 4, v_tilde: held, delta_tilde: 2 * sp.exp(t) - held / 2, weight_f: sp.exp(t) + held}
-_observer_gains = {k_1: sp.Integer(4), k_2: sp.Integer(5)}
+_observer_gains = {k_1: sp.Integer(4), k_2: sp.Integer(5), kappa_1: kappa}
 _tracking = {e_v: held, theta_tilde: 2 * sp.exp(t) - held, weight_v: held / 2 - 2 * sp.exp(t)}
-_tracking_gains = {k_5: sp.Rational(1, 4), beta_2: sp.Rational(1, 2), alpha_2: sp.Integer(2),
+_tracking_gains = {k_5: sp.Rational(1, 4), beta_2: sp.Rational(1, 2), alpha_2: sp.Integer(2), kappa_2: kappa,
                    hidden_v: sp.Rational(1, 2)}
+_at_rest = {s_tilde: sp.Integer(0), v_tilde: sp.Integer(0), delta_tilde: sp.exp(t), weight_f: sp.Integer(0)}
+_tracking_at_rest = {e_v: sp.Integer(0), theta_tilde: sp.exp(t), weight_v: sp.Integer(0)}
+_rest_gains = {k_1: sp.Integer(1), k_2: sp.Integer(2)}
 ZERO = ("delta", "theta", "delta_off", "theta_off", "W_f_off", "W_v_off")
 
 
@@ -45,6 +49,17 @@ def tracking_motion(shown: Relation) -> Goal:
     """Along (13), (18)-(21), (26), (28), (31)-(35) as printed `shown` holds from some time on."""
     return _motion(observer_loop() | tracking_loop(), _observer | _tracking, _observer_gains | _tracking_gains,
                    (hidden_f, hidden_v), shown)
+
+
+def observer_leaves_prior(shown: Relation) -> Goal:
+    """Along (13), (18)-(21) as printed, the errors of the observer and of its weights zero, `shown` holds from some time on."""
+    return _motion(observer_loop(), _at_rest, _rest_gains, (hidden_f,), shown)
+
+
+def tracking_leaves_prior(shown: Relation) -> Goal:
+    """The same with (26), (28), (31)-(35), e_v and the error of its weights zero."""
+    return _motion(observer_loop() | tracking_loop(), _at_rest | _tracking_at_rest, _rest_gains, (hidden_f, hidden_v),
+                   shown)
 
 
 def _motion(loop: dict[sp.Expr, sp.Expr], functions: dict[sp.Expr, sp.Expr], gains: dict[sp.Expr, sp.Expr],

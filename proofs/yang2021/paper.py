@@ -1,7 +1,7 @@
 """yang2021: RBFNN position output constrained robust adaptive control of an urban train, every claim of it.
 
 J. Yang, Y. Zhang, Y. Jin, Fully Automatic Operation Algorithm of Urban Rail Train Based on RBFNN Position
-Output Constrained Robust Adaptive Control, Algorithms 14 (2021) 264.
+Output Constrained Robust Adaptive Control, Algorithms 14(9) (2021) 264, doi 10.3390/a14090264.
 
 Its claims are those of sections 2 to 5 and of section 6, numbers and text. The plant and the laws are those that the
 simulation runs; V is (38). Derivatives are written D(...) and derived along the closed loop. Lines that only name

@@ -59,14 +59,17 @@ def saturation_slope() -> Goal:
 @paper.claim("16.unique", "(7), (8), (16) determine the acceleration, for any estimate of the mass", "implication",
              r"m a = \mathrm{sat}(\mu(a)) + \rho,\ m b = \mathrm{sat}(\mu(b)) + \rho \Rightarrow a = b", "gap",
              origin="implied", premises=("16.loop", "8.slope"), rests_on=(), scope=EACH_CAR,
-             note="(16) must define an input. rho gathers the other forces. At "
-                  "m_hat = m + 1/c_3 every acceleration within the limits solves the equations (the counterexample: "
-                  "both unsaturated), above it up to three do.")
+             note="(16) must define an input. rho gathers the other forces. A solution there always is, since the saturated "
+                  "force is bounded and m a is not: Theorem 1 holds for each motion that solves (16), but which one it is "
+                  "is left open. At m_hat = m + 1/c_3 and kappa + rho = 0 every acceleration within the limits solves the "
+                  "equations (the counterexample: both unsaturated, kappa = rho = 0), above it up to three do. See 16.rule "
+                  "for a choice of c_3 that rules it out.")
 def acceleration_unique() -> Goal:
-    """Two solutions of the loop of one car, both within the limits, agree."""
+    """Two solutions of the loop of one car without other forces, that pulls and brakes, both within the limits, agree."""
     within_limits = [(at_least(mu_of(kappa, x, mass_hat), u_low), at_most(mu_of(kappa, x, mass_hat), u_high),
                       equal(mass * x, mu_of(kappa, x, mass_hat) + rest)) for x in (a, b)]
-    return Goal((equal(a, b),), tuple(r for group in within_limits for r in group))
+    alone = (equal(kappa, 0), equal(rest, 0), less(u_low, 0), greater(u_high, 0))
+    return Goal((equal(a, b),), (*(r for group in within_limits for r in group), *alone))
 
 
 @paper.claim("16.unique.mended", "Below m + 1/c_3 the acceleration is unique", "implication",
@@ -79,6 +82,17 @@ def acceleration_unique_below() -> Goal:
     mu_a, mu_b = (mu_of(kappa, x, mass + 1 / c_3 - room) for x in (a, b))
     slope = at_most((u_a - u_b) ** 2, (u_a - u_b) * (mu_a - mu_b))
     return Goal((at_most((a - b) ** 2, 0),), (*(equal(u, mass * x - rest) for x, u in inputs), slope))
+
+
+@paper.claim("16.rule", "A c_3 for which the acceleration is unique whatever the estimate", "implication",
+             r"c_3(\overline m_j - \underline m_j) < 1,\ \underline m_j \le m_j,\ \hat m_{i,j} \le \overline m_j \Rightarrow "
+             r"\hat m_{i,j} < m_j + \tfrac{1}{c_3}", "proved", origin="ours", scope=EACH_CAR,
+             note="With Assumption 1 and (22). At c_3 = 0.04 the mass of a car would have to be known within 25 kg; the stated "
+                  "c_3 is too large for any load that changes by more.")
+def rule_for_c_3() -> Goal:
+    """The room m + 1/c_3 - m_hat is positive."""
+    return Goal((less(mass_hat, mass + 1 / c_3),),
+                (less(c_3 * (g_high - g_low), 1), at_most(g_low, mass), at_most(mass_hat, g_high)))
 
 
 @paper.claim("16.exists", "Below m + 1/c_3 the loop has a solution, in closed form", "implication",
@@ -131,7 +145,8 @@ def sampled_loop_settles() -> Goal:
              origin="implied", premises=("16.loop",), rests_on=(), scope="one motor car in one iteration",
              note="(22) uses the acceleration of the same instant, so (16) is quadratic in it and several accelerations "
                   "can solve the loop, even where the estimate of the iteration before is the mass. With the "
-                  "acceleration of the sample before in (22) the estimate is given, and 16.unique decides.")
+                  "acceleration of the sample before in (22) the estimate would be given and 16.unique decide, but then "
+                  "(34) no longer cancels c_3 z_2^T M_tilde v', and the proof is lost.")
 def loop_with_learning() -> Goal:
     """Two accelerations that solve (7), (8), (16), (22) of one car, none of them saturated; the estimate before is true."""
     def solved(x: sp.Expr) -> tuple[Relation, ...]:
@@ -140,5 +155,6 @@ def loop_with_learning() -> Goal:
         return (at_least(estimate, g_low), at_most(estimate, g_high), at_least(command, u_low),
                 at_most(command, u_high), equal(mass * x, command + rest))
 
-    bounds = (greater(g_low, 0), at_most(g_low, mass), at_most(mass, g_high), less(u_low, 0), greater(u_high, 0))
+    bounds = (greater(g_low, 0), at_most(g_low, mass), at_most(mass, g_high), less(u_low, 0), greater(u_high, 0),
+              equal(kappa, 0), equal(rest, 0))
     return Goal((equal(a, b),), (*bounds, *solved(a), *solved(b)))

@@ -42,15 +42,14 @@ def _starts_at_zero(*extra: Relation) -> Goal:
 
 
 @paper.claim("A3", "Assumption 3 makes V_i start at zero", "implication",
-             r"\text{$V_{i}(t) = \int_0^t \dot{V}_i(\tau) d\tau$ indicated by Assumption 3, $s_i(0) = s_r(0)$ and "
-             r"$v_i(0) = v_r(0)$}", "gap", match="words",
-             severity="cosmetic", reading="s_i(0) = s_r(0) and v_i(0) = v_r(0) imply V_i(0) = 0.", scope=EACH_CAR,
+             r"V_i(t) = \int_0^t \dot{V}_i(\tau) d\tau\ \text{indicated by Assumption 3}", "gap", match="words",
+             severity="cosmetic", reading="What Assumption 3 says, s_i(0) = s_r(0) and v_i(0) = v_r(0), implies V_i(0) = 0.", scope=EACH_CAR,
              correction=lambda: _starts_at_zero(*lambda_zero),
              corrected_statement=r"s_i(0) = s_r(0),\ v_i(0) = v_r(0),\ \lambda_{1,i}(0) = \lambda_{2,i}(0) = 0 "
                                  r"\Rightarrow V_i(0) = 0",
-             note="z contains lambda, whose initial value Assumption 3 does not name. It must be zero in every "
-                  "iteration; before (51) the paper calls just that a fact. It belongs into Assumption 3, and nothing "
-                  "hangs on that it does not stand there (A3.lambda).")
+             note="A slip of presentation: z contains lambda, whose initial value no line states. It must be zero in every "
+                  "iteration; below (9) the paper says that lambda remains zero without saturation, and before (51) it "
+                  "calls V_lambda(0) = 0 a fact. lambda(0) = 0 belongs into (9) (A3.lambda).")
 def starts_at_zero() -> Goal:
     """V at the initial state that Assumption 3 names."""
     return _starts_at_zero()
@@ -170,7 +169,7 @@ place, place_before, slope, tilde_eta = sp.symbols("s s_prev f_slope eta_tilde_p
 
 @paper.claim("31.place", "(31) for an additional resistance that depends on the place", "implication",
              r"f^a_{i,j}(t) = f^a(s_{i,j}(t)) \Rightarrow \frac{1}{2\gamma_\eta}\left(\|\tilde\eta_i\|^2 - "
-             r"\|\tilde\eta_{i-1}\|^2\right) \le c_3 z_{2,i}^T\tilde\eta_i", "gap", origin="implied", scope=EACH_CAR,
+             r"\|\tilde\eta_{i-1}\|^2\right) \le c_3 z_{2,i}^T\tilde\eta_i", "gap", origin="ours", scope=EACH_CAR,
              rests_on=(), severity="data",
              reading="Below (3) the paper says that slopes, tunnels and bridges cause f^a, and takes it for a function of "
                      "time that no state enters; here it is one of the place, as these are.",

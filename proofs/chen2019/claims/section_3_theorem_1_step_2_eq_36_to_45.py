@@ -46,7 +46,8 @@ TERMS_36 = (r"-c_{3}z_{2,i}^{T}\tilde{\Theta}_{\nu,1}\mathbf{v}_{1} + "
             r"\frac{1}{2\gamma_{M}}\operatorname{tr}\left(\tilde{M}_{1}^{2}\right)")
 LINE_36 = r"\dot{E}_{1} = " + TERMS_36.replace("GAIN_A", r"\frac{1}{\gamma_{a}}")
 TRUE_36 = (r"\dot{E}_{1} = -c_1\|z_{1,1}\|^2 - c_2\|z_{2,1}\|^2 "
-           + TERMS_36.replace("GAIN_A", r"\frac{1}{2\gamma_{a}}").replace(r"z_{2,i}^{T}", r"z_{2,1}^{T}"))
+           + TERMS_36.replace("GAIN_A", r"\frac{1}{2\gamma_{a}}").replace(r"z_{2,i}^{T}", r"z_{2,1}^{T}")
+           .replace(r"z_{2,1}\tilde{M}", r"z_{2,1}^{T}\tilde{M}"))
 FIRST = {"E_1": E, r"z_{2,1}\tilde{M}_{1}\dot{\mathbf{v}}_{1}": over_cars(z_2 * M_tilde * v_dot)}
 
 
@@ -60,8 +61,9 @@ def _first_rate(printed: bool) -> Goal:
 @paper.claim("36", "Rate of the CEF in the first iteration", "identity", LINE_36, "refuted", severity="cosmetic",
              premises=("24",), scope=EVERY_TRAIN, where=FIRST,
              reading="The index i of the first term is read as 1, and z without its transpose as transposed.",
-             note="The two squares of (24) are missing, and 1/gamma_a should be 1/(2 gamma_a), as in (25) and (40). With "
-                  "<= instead of = the printed line is true, which is all that (45) needs.")
+             note="The two squares of (24) are missing, and 1/gamma_a should be 1/(2 gamma_a), as in (25) and (40). The missing "
+                  "squares may be left out with <= instead of =; 1/(2 gamma_a) is needed, since with 1/gamma_a what (40) "
+                  "bounds is less than what stands here, and (45) would not follow.")
 def first_rate() -> Goal:
     """D(E_1) of (25) along the closed loop."""
     return _first_rate(printed=True)
@@ -201,7 +203,7 @@ bound_rate, E_rate, clock = sp.symbols("beta w_E t", real=True)
 @paper.claim("45.bounded", "E_1 is bounded on [0, T]", "implication",
              r"\text{It can draw conclusion from (45) that $E_1$ is bounded in the finite interval [0, T] since the right "
              r"side of (45) is a continuous iteration-independent function.}", "proved", match="words",
-             premises=("45.glyph", "A3.lambda"), rests_on=("45",),
+             premises=("45.glyph", "A3.lambda"), rests_on=("45.glyph",),
              reading="With beta the largest value of the right side of (45) on [0, T], E_1' <= beta and E_1(0) = 0 give "
                      "E_1(t) <= beta t.",
              note="It rests on solutions that exist on [0, T]; bounded parameters suffice, the paper asks for continuous "

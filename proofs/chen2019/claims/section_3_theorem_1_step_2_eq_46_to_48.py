@@ -7,9 +7,9 @@ import sympy as sp
 from workbench.proof.claim import Goal, Relation, at_least, at_most, equal
 
 from ..energy_function import E_1, S_1, S_2, Z_1, Z_2, E_before, E_now, V_before
-from ..goal_forms import J_i, along_iterations, i_axis, y_i
+from ..goal_forms import J_i, along_iterations, i_axis, integrated, y_i
 from ..laws import c_1, c_2
-from ..paper import paper
+from ..paper import EACH_CAR, paper
 
 SUM_1, SUM_2 = (rf"\sum_{{k=2}}^{{i}} \int_{{0}}^{{t}} \left\| z_{{{x},k}} \right\|^{{2}} d\tau" for x in (1, 2))
 SUM_V = r"\sum_{k=1}^{i-1} V_k(t)"
@@ -60,8 +60,9 @@ def _limit(relation: Relation) -> Goal:
 @paper.claim("47", "The limit of (46)", "limit", rf"{LIM_E} = {RIGHT_47}", "gap", severity="cosmetic", premises=("46",),
              where=IN_47, correction=lambda: _limit(at_most(E_limit, right_47)),
              corrected_statement=rf"{LIM_E} \le {RIGHT_47}",
-             note="The limit of the inequality (46) is an inequality; the dropped squares and V_{i-1} make up the "
-                  "difference. (48) needs <= alone.")
+             note="The limit of the inequality (46) is an inequality. By 46.kept the sum of all V_k(t) lies between the two "
+                  "sides, so the printed equality is false wherever some V_k(t) is positive; harmless, since (48) needs <= "
+                  "alone.")
 def cef_limit() -> Goal:
     """Equality of the limits from (46)."""
     return _limit(equal(E_limit, right_47))
@@ -95,27 +96,46 @@ def integrals_converge() -> Goal:
     return Goal(shown, (at_least(E_now, 0), *paper.shown("46"), equal(S_1 + Z_1, terms_1), equal(S_2 + Z_2, terms_2)))
 
 
+# Squares, and sums and integrals of squares, as the paper says of V_{i-1} before (35).
+squares_given = (at_least(V_before, 0), at_least(Z_1, 0), at_least(Z_2, 0), at_least(S_1, 0), at_least(S_2, 0))
+
+
 def _instants_converge() -> Goal:
     """The count of iterations with V_k(t) >= delta, from 46.kept."""
     return Goal((at_most(delta * count_1, E_1),),
-                (at_least(E_now, 0), *paper.shown("46.kept"), equal(S_V + V_before, terms_1), at_least(S_1 + Z_1, 0),
-                 at_least(S_2 + Z_2, 0)))
+                (*squares_given, at_least(E_now, 0), *paper.shown("46.kept"), equal(S_V + V_before, terms_1)))
 
 
-@paper.claim("55.pointwise", "The text after (55): (48) makes z converge at every instant", "limit",
+@paper.claim("55.pointwise", "The text after (55): (48) makes z_2 converge at every instant", "limit",
              r"\text{Hence, it can conclude that ... $z_{1,i}$ and $z_{2,i}$ are convergent along the iteration axis "
              r"pointwisely.}", "gap", premises=("48",), match="words",
-             reading="The integrals of (48) tend to zero, so z_i(t) tends to zero at every t.",
+             reading="Of z_2: its integrals of (48) tend to zero, so z_{2,i}(t) tends to zero at every t. Of z_1 it is true, "
+                     "see 55.z_1.",
              correction=_instants_converge,
              corrected_statement=r"\#\{k: V_k(t) \ge \delta\} \le \tfrac{E_1(t)}{\delta}\ \text{for every } t, \delta "
                                  r"> 0",
-             note="Integrals do not control instants: z_i(tau) = tau^(i+1) on [0, 1] has the integral 1/(2i+3) of its "
-                  "square and z_i(1) = 1 in every iteration. The conclusion is nevertheless true: the term V_{i-1}(t) "
-                  "that (35) drops gives it, see 55.mended.")
+             note="Integrals do not control instants: z_2(tau) = tau^(i+1) on [0, 1] has the integral 1/(2i+3) of its "
+                  "square and z_2(1) = 1 in every iteration. This is no motion of the loop, it shows what the step from "
+                  "(48) lacks. The conclusion is nevertheless true: the term V_{i-1}(t) that (35) drops gives it, see "
+                  "55.mended.")
 def pointwise_from_integrals() -> Goal:
-    """y = |z_i(1)|^2 from the integral J of |z_i|^2, which tends to zero."""
+    """y = |z_2(1)|^2 of iteration i from the integral J of |z_2|^2, which tends to zero."""
     always = (at_most(J_i, 1 / (2 * i_axis + 3)), at_least(J_i, 0), at_least(y_i, 0), at_least(i_axis, 0))
     return along_iterations(at_most(y_i, sp.S.Half), always, {J_i: 1 / (2 * i_axis + 3), y_i: sp.Integer(1)}, {})
+
+
+z_1_car, z_2_car = sp.symbols("z_1 z_2", real=True)
+
+
+@paper.claim("55.z_1", "At every instant z_1 is small where the integral of z_2 is", "implication",
+             r"\|z_{1,i}(t)\|^2 \le \frac{1}{2c_1}\int_0^t\|z_{2,i}\|^2d\tau", "proved", origin="ours", premises=("11",),
+             scope=EACH_CAR, where={r"\|z_{1,i}(t)\|^2": z_1_car**2, r"\int_0^t\|z_{2,i}\|^2d\tau": Z_2},
+             note="From z_1' = -c_1 z_1 + z_2, which (11) and (12) give, and z_1(0) = 0. So (48) does make z_1 converge at every "
+                  "instant, even uniformly.")
+def z_1_at_an_instant() -> Goal:
+    """2 c_1 z_1^2 minus the integral of z_2^2 falls by (2 c_1 z_1 - z_2)^2."""
+    return integrated({z_1_car: -c_1 * z_1_car + z_2_car, Z_2: z_2_car**2}, at_most(z_1_car**2, Z_2 / (2 * c_1)), (),
+                      (c_1,), decreasing=2 * c_1 * z_1_car**2 - Z_2)
 
 
 @paper.claim("55.mended", "z converges at every instant by the term that (35) drops", "limit",
@@ -128,12 +148,23 @@ def instants_converge() -> Goal:
 
 @paper.claim("theorem1.2", "Theorem 1, part 2: z_1 and z_2 converge to 0 along the iteration axis", "limit",
              r"\text{$z_{1,i}$ and $z_{2,i}$ converge to 0 along the iteration axis.}", "proved", severity="result",
-             match="words", premises=("25", "46.kept", "45.bounded"), rests_on=("48", "55.pointwise", "16.unique"),
-             reading="At every t, for every delta > 0 at most E_1(t)/delta iterations have V_k(t) = (|z_1|^2 + |z_2|^2)/2 "
+             match="words", premises=("25", "46.kept", "45.bounded"), rests_on=("48", "55.pointwise"),
+             reading="For every motion that solves (16). At every t, for every delta > 0 at most E_1(t)/delta iterations have V_k(t) = (|z_1|^2 + |z_2|^2)/2 "
                      ">= delta; then z_1 and z_2 tend to 0 at every instant, and so do their integrals.",
-             note="It stands by 35.kept, not by the printed way over (48). It supposes that iterations differ in nothing "
-                  "but the estimates (31.place), that lambda starts at zero (A3) and that (16) defines an input "
-                  "(16.unique).")
+             note="It stands by 35.kept, not by the printed way over (48), see theorem1.2.mended. It supposes that lambda starts "
+                  "at zero (A3) and that the parameters are the same in every iteration, as the paper has it; (16) may leave "
+                  "open which motion it is (16.unique).")
 def z_converges() -> Goal:
     """The count of iterations with a large V at an instant."""
     return _instants_converge()
+
+
+@paper.claim("theorem1.2.mended", "Part 2 with its proof, the term that (35) drops kept", "implication",
+             r"\lambda_{1,i}(0) = \lambda_{2,i}(0) = 0,\ \text{the same parameters in every iteration}: E_i - E_{i-1} \le "
+             rf"-V_{{i-1}}(t),\ \text{{so}}\ {SUM_V} \le E_1(t)\ \text{{for every $i$ and $t$}}", "proved", origin="ours",
+             mends="theorem1.2", severity="result", match="words", premises=("25", "46.kept", "45.bounded"),
+             reading="The sum of all V_k(t) = (|z_1|^2 + |z_2|^2)/2 of the iterations is at most E_1(t), which is finite "
+                     "(45.bounded): so V_k(t) tends to 0.")
+def sum_bounded() -> Goal:
+    """46.kept with E_i >= 0."""
+    return Goal((at_most(S_V + V_before, E_1),), (*squares_given, at_least(E_now, 0), *paper.shown("46.kept")))

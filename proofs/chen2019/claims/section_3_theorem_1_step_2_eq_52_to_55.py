@@ -7,17 +7,19 @@ from dataclasses import replace
 import sympy as sp
 
 from workbench.proof.claim import Goal, Relation, at_least, at_most, equal, greater
-from workbench.trains.multi_particle import over_cars, s, v
+from workbench.trains.multi_particle import each_car, over_cars, s, v
 
-from ..energy_function import Z_1, Z_2, E_before, E_now
+from ..energy_function import Z_1, Z_2, E_before, E_now, V_before
 from ..goal_forms import integrated
-from ..laws import any_gains, auxiliary, c_1, c_3, errors, lambda_1, lambda_2, s_r, v_r, z_1, z_2
+from ..laws import any_gains, auxiliary, c_1, c_2, c_3, errors, lambda_1, lambda_2, s_r, v_r, z_1, z_2
 from ..one_car import one_car
 from ..paper import EACH_CAR, EVERY_TRAIN, paper
 from ..stated_values import at_stated, stated_gains
 from .section_3_theorem_1_step_2_eq_49_to_51 import (
     INT_LAMBDA,
+    INT_LAMBDA_2,
     INT_U,
+    X_2,
     X,
     Y,
     c_lambda,
@@ -54,6 +56,7 @@ def z_against_cef() -> Goal:
 e_s, e_v, e_a, S_e, W_e = sp.symbols("e_s e_v e_a S W", real=True)
 z_in_errors = tuple(one_car(expr.xreplace({v: e_v + v_r}).xreplace({s: e_s + s_r})) for expr in errors.values())  # (10)
 INT_E_V = r"\int_{0}^{T} \|\boldsymbol{e}_{v,i}\|^{2} d\tau"
+INT_E_S_53 = r"\int_{0}^{T} \|\boldsymbol{e}_{s,i}\|^{2} d\tau"
 INT_Z_53 = r"\int_{0}^{T} (\|\boldsymbol{z}_{1,i}\|^{2} + \|\boldsymbol{z}_{2,i}\|^{2}) d\tau"
 
 
@@ -109,7 +112,8 @@ def errors_against_z_squared() -> Goal:
 
 def _tracking(of_lambda: str, bound: sp.Expr, *more: Relation) -> Goal:
     """Both bounds, from 53.glyph, (52) and a bound of the integral X of lambda."""
-    given = (*paper.shown("53.glyph"), *paper.shown("52"), *paper.shown(of_lambda), at_least(S_e, 0), at_least(W_e, 0))
+    given = (*paper.shown("53.glyph"), *paper.shown("52"), *paper.shown(of_lambda), at_least(S_e, 0), at_least(W_e, 0),
+             *minimum_z, at_least(Z_1, 0), at_least(Z_2, 0))
     return Goal((at_most(S_e, bound), at_most(W_e, bound)), (*more, *given))
 
 
@@ -120,7 +124,7 @@ def _tracking_printed() -> Goal:
 
 
 PREMISES_54 = ("51", "52", "53.glyph")
-CHAIN_54 = ("51", "52", "53")
+CHAIN_54 = ("51", "52", "53.glyph")
 READING_54 = "With c_lambda = min(c_1 - 1/2, c_2 - 1/2 - c_3/2) > 0, as the paper prints below (49), and c_z = min(c_1, c_2)."
 
 
@@ -157,25 +161,48 @@ IN_PART_3 = {**IN_54, **dict(zip(PART_3, (S_e, W_e), strict=True)), INT_U_3: Y}
 
 @paper.claim("theorem1.3", "Theorem 1, part 3: the tracking errors remain within the bounds", "implication",
              rf"{PART_3[0]} \leq {_right_54(INT_U_3)}, {PART_3[1]} \leq {_right_54(INT_U_3)}", "proved",
-             severity="result", premises=PREMISES_54, rests_on=("54", "55", "16.unique"), where=IN_PART_3,
+             severity="result", premises=PREMISES_54, rests_on=("54", "55"), where=IN_PART_3,
              reading=READING_54, scope=EACH_CAR,
-             note="True for c_lambda > 0. The bound does not shrink with the iterations: E_{i-1} need not tend to "
-                  "zero, nor does the saturation (A2). See theorem1.3.stated for the stated gains.")
+             note="As printed for c_lambda > 0, for every motion that solves (16). The bound does not shrink with the "
+                  "iterations: E_{i-1} need not tend to zero, nor does the saturation (A2). In theorem1.3.any_gains, which "
+                  "needs no c_lambda, E_{i-1} - E_i stands in its place, which does tend to zero. See theorem1.3.stated for "
+                  "the stated gains.")
 def tracking_errors_bounded() -> Goal:
     """(54) and (55) together."""
     return _tracking_printed()
 
 
 ANY_GAINS = r"2\left(\tfrac{c_3}{c_2}\right)^2\left(1 + \tfrac1{c_1^2}\right)"
+INT_Z_2 = r"\int_{0}^{T} \left\| z_{2,i} \right\|^{2} d\tau"
+
+
+@paper.claim("53.speed", "The tracking errors against z_2 and lambda_2 alone", "inequality",
+             rf"c_1^2{INT_E_S_53} + {INT_E_V} \leq 2 {INT_Z_2} + 2 {INT_LAMBDA_2}", "proved", origin="ours", scope=EVERY_TRAIN,
+             where={INT_E_S_53: S_e, INT_E_V: W_e, INT_Z_2: Z_2, INT_LAMBDA_2: X_2},
+             note="From e_v + c_1 e_s = z_2 + lambda_2, by (10) and (12), and e_s(0) = 0; in one unit, as (53) is not.")
+def errors_against_speeds() -> Goal:
+    """For every path, summed over the cars: c_1 e_s^2 and the square of z_2 - lambda_2 are what is left."""
+    (position,) = each_car("e_s")
+    speed = z_2 + lambda_2 - c_1 * position
+    rates = {position: speed, S_e: over_cars(position**2), W_e: over_cars(speed**2), Z_2: over_cars(z_2**2),
+             X_2: over_cars(lambda_2**2)}
+    bound = at_most(c_1**2 * S_e + W_e, 2 * Z_2 + 2 * X_2)
+    return integrated(rates, bound, (), (c_1,), decreasing=c_1 * over_cars(position**2) - bound.margin)
 
 
 @paper.claim("theorem1.3.any_gains", "Part 3 of Theorem 1 for all positive gains", "implication",
-             rf"{PART_3[0]}, {PART_3[1]} \leq \frac{{2}}{{c_z}} E_{{i-1}} + {ANY_GAINS} {INT_U_3}", "proved", origin="ours",
-             mends="theorem1.3", premises=("51.any_gains", "52", "53.glyph"), where=IN_PART_3, scope=EACH_CAR,
-             note="Without a condition on c_lambda, hence for the stated gains too.")
+             rf"c_1^2{PART_3[0]} + {PART_3[1]} \leq \frac{{2}}{{c_2}}(E_{{i-1}} - E_i) + "
+             rf"2\left(\frac{{c_3}}{{c_2}}\right)^2 {INT_U_3}", "proved", origin="ours",
+             mends="theorem1.3", premises=("51.lambda_2", "35", "53.speed"), where=IN_PART_3 | {"E_i": E_now}, scope=EVERY_TRAIN,
+             note="Without a condition on c_lambda, hence for the stated gains too, where the factor of the saturation is "
+                  "3.2e-7. E_i falls and is not negative, so that E_{i-1} - E_i tends to zero: what is left in the end is "
+                  "the saturation alone.")
 def tracking_errors_bounded_for_all_gains() -> Goal:
-    """(52) and 53.glyph with 51.any_gains."""
-    return _tracking("51.any_gains", 2 / c_z * E_before + 2 * any_gains * Y)
+    """(35) at t = T and 53.speed with 51.lambda_2."""
+    change, *_ = paper.shown("35")
+    given = (equal(E_now - E_before, change.left), change, at_least(Z_1, 0), at_least(V_before, 0))
+    return Goal((at_most(c_1**2 * S_e + W_e, 2 / c_2 * (E_before - E_now) + 2 * (c_3 / c_2) ** 2 * Y),),
+                (*paper.shown("53.speed"), *paper.shown("51.lambda_2"), *given))
 
 
 def _tracking_at_stated_gains() -> Goal:

@@ -5,14 +5,13 @@ from __future__ import annotations
 import sympy as sp
 
 from workbench.proof.claim import D, Goal, Relation, at_least, at_most
-from workbench.trains.multi_particle import c_0, c_a, c_d, c_k, c_v, over_cars
+from workbench.trains.multi_particle import over_cars
 
 from ..energy_function import E_1, S_1, S_2, Z_1, Z_2, E, E_now, J
 from ..goal_forms import J_i, along_iterations, i_axis, y_i
-from ..laws import learning_gains, z_1, z_2
+from ..laws import learning_gains, limited, z_1, z_2
 from ..one_car import estimate, g_high, g_low
 from ..paper import EACH_CAR, EVERY_TRAIN, paper
-from ..plant import car_forces
 
 level = sp.Symbol("B", positive=True)
 
@@ -58,33 +57,36 @@ def estimates_bounded() -> Goal:
     return _no_bound_of_values()
 
 
-def _train_energy() -> Goal:
-    """Kinetic and coupler energy of six cars under forces F_j = u_j + f^a_j - c_0 m_j, named f_a_j."""
-    newton, _, symbols = car_forces(6)
-    S, Vs, masses = symbols["s"], symbols["v"], symbols["m"]
-    spring, damper, rolling, air = (sp.Symbol(str(x), nonnegative=True) for x in (c_k, c_d, c_v, c_a))
-    put = {c_k: spring, c_d: damper, c_v: rolling, c_a: air, c_0: sp.S.Zero}
-    kinetic = sum((m_j * v_j**2 / 2 for m_j, v_j in zip(masses, Vs, strict=True)), sp.S.Zero)
-    stretch = sum((spring * (S[j] - S[j + 1]) ** 2 / 2 for j in range(5)), sp.S.Zero)
-    rates = dict(zip(S, Vs, strict=True)) | {v_j: force.xreplace(put) / m_j
-                                             for v_j, force, m_j in zip(Vs, newton, masses, strict=True)}
-    forced = sum((f_j**2 / (2 * m_j) for f_j, m_j in zip(symbols["f_a"], masses, strict=True)), sp.S.Zero)
-    return Goal((at_most(D(kinetic + stretch), kinetic + stretch + forced),), (at_least(Vs[0], 0),), rates)
+# A car and its neighbours: places, speeds, and the forces over its mass; coefficients may change with the time.
+s_j, s_ahead, s_behind, v_j, v_ahead, v_behind, phi_j = sp.symbols("s_j s_ahead s_behind v_j v_ahead v_behind phi_j", real=True)
+k_rel, d_rel, resisting = sp.symbols("k_rel d_rel resisting", nonnegative=True)
+k_most, d_most, phi_most = sp.symbols("k_rel_max d_rel_max phi_max", nonnegative=True)
 
 
-ENERGY = (r"v_1 \ge 0 \Rightarrow \dot K \le K + \sum_j\tfrac{F_j^2}{2m_j},\ K = \sum_j\tfrac{m_j}2v_j^2 + "
-          r"\sum_j\tfrac{c_k}2(s_j - s_{j+1})^2,\ F_j = u_j + f^a_j - c_0m_j")
+def _grows_linearly() -> Goal:
+    """The rate of a car's (s^2 + v^2)/2 along (1)-(3) against the squares of its own and its neighbours' states."""
+    stretch, stretching = s_ahead - 2 * s_j + s_behind, v_ahead - 2 * v_j + v_behind
+    rates = {s_j: v_j, v_j: phi_j - resisting * v_j + k_rel * stretch + d_rel * stretching}
+    near = s_ahead**2 + s_j**2 + s_behind**2 + v_ahead**2 + v_j**2 + v_behind**2
+    pulls = ((k_rel, k_most, stretch), (d_rel, d_most, stretching))
+    lemmas = tuple(at_most(rel * pull * v_j, most * (pull**2 + v_j**2) / 2) for rel, most, pull in pulls)
+    return Goal((at_most(D(s_j**2 / 2 + v_j**2 / 2), phi_most**2 / 2 + (1 + 4 * k_most + 4 * d_most) * near),),
+                (at_most(k_rel, k_most), at_most(d_rel, d_most), at_most(phi_j**2, phi_most**2)), rates, lemmas=lemmas)
+
+
+ENERGY = (r"v_1 \ge 0,\ \tfrac{c_k}{m_j} \le \bar\kappa,\ \tfrac{c_d}{m_j} \le \bar\delta,\ |\varphi_j| \le \varphi_{\max} "
+          r"\Rightarrow \tfrac{d}{dt}\tfrac12(s_j^2 + v_j^2) \le \tfrac12\varphi_{\max}^2 + (1 + 4\bar\kappa + 4\bar\delta)"
+          r"\sum_{k=j-1}^{j+1}(s_k^2 + v_k^2),\ \varphi_j = \tfrac{u_j + f^a_j}{m_j} - c_0")
 
 
 @paper.claim("theorem1.1.state", "s and v are bounded according to (54) and (55)", "implication",
              r"\text{since $s_r$ and $v_r$ are the known bounded variables in the interval [0, T], the displacement $s_i$ "
              r"and velocity $v_i$ are also bounded in [0, T] according to (54) and (55).}", "gap", match="words",
-             premises=("54", "55"), correction=_train_energy, corrected_statement=ENERGY,
+             premises=("54", "55"), correction=_grows_linearly, corrected_statement=ENERGY,
              reading="The integral of e_s^2 is bounded for all iterations, from (54) and E_{i-1} <= E_1.",
-             scope="corrected for six cars",
-             note="The bounds contain the saturation, of which nothing is shown: mu is not bounded anywhere, so Delta "
-                  "u, lambda and s may grow with the iterations while z stays small (the model; and integrals do not "
-                  "bound values). The train itself helps out, see theorem1.1.energy.")
+             note="The bounds contain the saturation, of which nothing is shown: mu is not bounded anywhere, so that (54) and "
+                  "(55) alone let s grow with the iterations (the model; and integrals do not bound values). The limits of "
+                  "the forces do bound s and v, see theorem1.1.energy.")
 def state_bounded() -> Goal:
     """The integral J of e_s^2 from E_{i-1} <= E_1 and the saturation y, both constants of (54) taken as 1."""
     always = (at_most(J_i, 1 + y_i), at_least(J_i, 0), at_least(y_i, 0))
@@ -92,24 +94,48 @@ def state_bounded() -> Goal:
                             {level: sp.Integer(1)})
 
 
-@paper.claim("theorem1.1.energy", "With limited forces the train's energy stays bounded on [0, T]", "implication", ENERGY,
-             "proved", origin="ours", mends="theorem1.1.state", scope="six cars",
-             note="So v and the stretch of the couplers are bounded by the limits of the forces, whatever the law, while "
-                  "the train does not run backwards (then (2) would push instead of resist); and with them lambda = e - "
-                  "z.")
+@paper.claim("theorem1.1.energy", "With limited forces s and v stay bounded on [0, T]", "implication", ENERGY,
+             "proved", origin="ours", mends="theorem1.1.state",
+             scope="every inner car, coefficients of any course in time; at an end of the train the missing neighbour is the car itself",
+             reading="The resistance over the mass is r v_j with r >= 0: r is c_v, and c_v + c_a sum_k m_k v_1/m_1 for the "
+                     "first car.",
+             note="Added over the cars, where no car counts more than three times, the rate of (|s|^2 + |v|^2)/2 is at most a "
+                  "constant plus a multiple of it: by Gronwall's inequality s and v are bounded on [0, T] by the limits of the "
+                  "forces, whatever the law, and with them lambda = e - z. It needs bounded coefficients, a lower bound of the "
+                  "masses (Assumption 1), and v_1 >= 0 or v_1 |v_1| in (2), which would push a train that runs backwards.")
 def energy_bounded() -> Goal:
-    """The rate of the kinetic and coupler energy along (1)-(3)."""
-    return _train_energy()
+    """The rate of s^2 + v^2 of a car along (1)-(3)."""
+    return _grows_linearly()
+
+
+hat_before, change, low, high, truth = sp.symbols("hat_prev step theta_low theta_high theta", real=True)
+gain = sp.Symbol("gamma", positive=True)
+projected = limited(hat_before + gain * change, low, high)
+
+
+@paper.claim("theorem1.1.saturated", "A saturation in (17) to (21), as (22) has it, bounds the estimates", "implication",
+             r"\hat\theta_i = \mathrm{sat}(\hat\theta_{i-1} + \gamma d, \underline\theta, \overline\theta),\ \underline\theta \le "
+             r"\theta \le \overline\theta \Rightarrow \underline\theta \le \hat\theta_i \le \overline\theta,\ "
+             r"\frac{1}{2\gamma}(\tilde\theta_i^2 - \tilde\theta_{i-1}^2) \le d\,\tilde\theta_i", "proved", origin="ours",
+             scope="every entry of an estimate", reading="d is c_3 times what drives the estimate.",
+             note="The natural repair of part 1: with known bounds of the parameters, (27) to (31) hold under their integrals as "
+                  "they stand, so that the rest of the proof is kept, and all estimates are bounded at every instant.")
+def saturated_learning() -> Goal:
+    """Case by case of the saturation."""
+    now, before = projected - truth, hat_before - truth
+    return Goal((at_least(projected, low), at_most(projected, high), at_most((now**2 - before**2) / (2 * gain), change * now)),
+                (at_most(low, truth), at_most(truth, high)))
 
 
 @paper.claim("theorem1.1", "Theorem 1, part 1: all variables are bounded", "implication",
              r"\text{All variables are bounded.}", "gap", severity="result", match="words",
              premises=("theorem1.1.z", "theorem1.1.mass", "theorem1.1.estimates", "theorem1.1.state"),
-             rests_on=("theorem1.1.z", "theorem1.1.mass", "theorem1.1.estimates", "theorem1.1.state", "16.unique"),
+             rests_on=("theorem1.1.z", "theorem1.1.mass", "theorem1.1.estimates", "theorem1.1.state"),
              reading="The values of all variables at an instant, for all iterations, by what the proof shows of them: "
                      "integrals of squares that are bounded.",
-             note="What is shown is theorem1.1.mended. The values of the estimates, and of mu with them, are not bounded "
-                  "by their integrals; no motion is known in which they grow.")
+             note="What is shown is theorem1.1.mended, which is less, and s, v and lambda are bounded by theorem1.1.energy. The "
+                  "values of the estimates, and of mu with them, are not bounded by their integrals; no motion is known in "
+                  "which they grow. With a saturation in (17) to (21) part 1 would hold (theorem1.1.saturated).")
 def all_bounded() -> Goal:
     """The squared value y of a variable from the integral J of such squares."""
     return _no_bound_of_values()
@@ -119,7 +145,7 @@ def all_bounded() -> Goal:
              "implication",
              r"\|z_{1,i}\|^2 + \|z_{2,i}\|^2 \le 2E_1,\ \int_0^t\mathrm{tr}(\tilde\Theta_{v,i}^2)d\tau \le 2\gamma_vE_1,\ "
              r"\dots,\ \int_0^t\mathrm{tr}(\tilde M_i^2)d\tau \le 2\gamma_ME_1", "proved", origin="ours",
-             mends="theorem1.1", premises=("46", "45.bounded"), scope=EVERY_TRAIN,
+             premises=("46", "45.bounded"), scope=EVERY_TRAIN,
              note="Uniformly in the iterations. With theorem1.1.mass and theorem1.1.energy the estimate of the mass, s, v "
                   "and lambda are bounded at every instant as well.")
 def all_bounded_as_shown() -> Goal:

@@ -101,7 +101,8 @@ def _tunnel(name: str, title: str, printed: str, force: sp.Expr, stated: sp.Expr
 
 
 _tunnel("4", "The force of a tunnel with restricted ramps", r"f_t(v, t) = \frac{v^2}{10^9}L_sM(t)", restricted_tunnel_force,
-        v**2 / 10**9 * tunnel_length * M, "No row of Table 1 has a slope and a tunnel, so that no run has this force.")
+        v**2 / 10**9 * tunnel_length * M, "No row of Table 1 has a slope and a tunnel, so that no run has this force. The rule is usually stated for a speed "
+        "in km/h; the paper's v is in m/s.")
 _tunnel("4.plain", "The force of a tunnel without restricted ramps", r"f_t(v, t) = \frac{1.3}{10^6}L_sM(t)", tunnel_force,
         sp.Rational("1.3") / 10**6 * tunnel_length * M, "The case that the runs take.")
 

@@ -10,7 +10,7 @@ from ..goal_forms import within
 from ..paper import paper
 from ..plant import M, a_0, a_1, a_2, acceleration, chi, d, davis, f_d, model, opposing, s, u, v
 
-NEWTON = {s: v, v: (u - f_d) / M}  # (1)
+DISTURBED = {s: v, v: (u - f_d) / M + d}  # (1), and the disturbance that (9) adds
 
 
 s_1, s_2 = sp.symbols("s_1 s_2", real=True)
@@ -21,8 +21,8 @@ s_1, s_2 = sp.symbols("s_1 s_2", real=True)
              rests_on=(),
              reading="Against (6), where the position s stands in the place of the integral, t_1 and t_2 being the start "
                      "and the end of the additional resistance.",
-             note="Between fixed instants the integral is the length of the section, one number, and not the position. "
-                  "The upper end should be t. Nothing depends on it: f_a needs only to be bounded.")
+             note="Between fixed instants the integral is the length of the section, one number, and not the position, which "
+                  "is s(t_1) plus the integral of v from t_1 to t. Nothing depends on it: f_a needs only to be bounded.")
 def position_by_integral() -> Goal:
     """s(t_2) - s(t_1) against a position in between."""
     return Goal((equal(s_2 - s_1, s),), (at_most(s_1, s), at_most(s, s_2)))
@@ -44,15 +44,15 @@ def general_resistance() -> Goal:
 @paper.claim("9", "The model (9) from (1)", "implication",
              r"\dot v(t) = \frac{\chi}{M}u(t) - \frac{\chi}{M}f_d(v, t) + d(t)", "gap", severity="cosmetic",
              rests_on=("1",),
-             correction=lambda: Goal((equal(D(v), acceleration.xreplace({chi: sp.Integer(1), d: sp.Integer(0)})),),
-                                     flow=NEWTON),
-             corrected_statement=r"\chi = 1,\ d = 0:\quad \dot v = \tfrac{\chi}{M}u - \tfrac{\chi}{M}f_d + d",
-             note="'Therefore', says the text, but (1) calls M the equivalent mass already; the factor chi (0.9 in "
-                  "section 6) and the disturbance come in without a word. As a model in its own right, which is what the "
-                  "theorems take it for, (9) is sound, with the effective mass M/chi.")
+             reading="Of (1) with the d(t) that the text below (9) adds for what is not modelled.",
+             correction=lambda: Goal((equal(D(v), acceleration.xreplace({chi: sp.Integer(1)})),), flow=DISTURBED),
+             corrected_statement=r"\chi = 1:\quad \dot v = \tfrac{\chi}{M}u - \tfrac{\chi}{M}f_d + d",
+             note="'Therefore', says the text, but (1) calls M the equivalent mass already, and the factor chi (0.9 in "
+                  "section 6) is nowhere defined. As a model in its own right, which is what the theorems take it for, "
+                  "(9) is sound, with the effective mass M/chi.")
 def model_from_newton() -> Goal:
-    """The acceleration of (1) against that of (9)."""
-    return Goal((equal(D(v), acceleration),), flow=NEWTON)
+    """The acceleration of (1) with a disturbance against that of (9)."""
+    return Goal((equal(D(v), acceleration),), flow=DISTURBED)
 
 
 paper.axiom("assumption1", "Assumption 1: a smooth reference", r"\text{The reference trajectory}\ x_d = [s_d, v_d]\ "

@@ -119,7 +119,7 @@ rate_25 = (k_4 * M / chi * (sdot_d - (v_hat - k_1 * s_error)) + M / chi * sddot_
 
 
 @paper.claim("25", "Rate of e_v with the observer and the plant", "identity", PRINTED_25, "refuted", glyph="25.glyph",
-             premises=("24.glyph",), rests_on=("12", "24"), scope=EVERY_NETWORK, where=TRACKED,
+             premises=("24.glyph",), rests_on=("12", "24.glyph"), scope=EVERY_NETWORK, where=TRACKED,
              note="With (12) as extracted. " + DAMPING + " With k_3 s_tilde' it holds, see 25.glyph.")
 def e_v_rate_plant() -> Goal:
     """M/chi times D(e_v) along (12) as printed, f of (12) written out."""
@@ -146,7 +146,7 @@ def _with_networks(expr: sp.Expr) -> sp.Expr:
              r"\frac{M}{\chi}\dot e_v = \frac{k_4M}{\chi}(\dot s_d - \hat v + k_1\tilde s) - \frac{M}{\chi}d(t) - u(t) - "
              r"\frac{M}{\chi}\left(-\ddot s_d + \tilde W_f^Th_f(\hat z_1) + \tilde\varepsilon_f(z_1) - \frac{\chi}{M}f_d(v)"
              r" - k_2\tilde s - k_3\dot{\tilde s} - \gamma(\dot{\tilde s} + k_1\tilde s)\hat\delta\right)",
-             "proved", premises=("18.glyph", "25.glyph"), rests_on=("18", "20.cancels", "25"), scope=EVERY_NETWORK,
+             "proved", premises=("18.glyph", "25.glyph"), rests_on=("18.glyph", "20.cancels", "25.glyph"), scope=EVERY_NETWORK,
              where=TRACKED | {r"\tilde\varepsilon_f(z_1)": eps_tilde_left,
                               r"\gamma(\dot{\tilde s} + k_1\tilde s)": gamma_1(signal)},
              reading="The first two lines of (26), from (25) with k_3 s_tilde' in (12); the third line names f_v, see 27.")
@@ -174,7 +174,7 @@ f_v = {"f_v": f_v_of_25}
              r"f_v = \frac{k_4M}{\chi}(\dot s_d - \hat v + k_1\tilde s) - \frac{M}{\chi}\left(\tilde W_f^Th_f(\hat z_1) + "
              r"\tilde\varepsilon_f(z_1) - \frac{\chi}{M}f_d(v) - k_2\tilde s - k_3\dot{\tilde s} - "
              r"\gamma(\dot{\tilde s} + k_1\tilde s)\hat\delta - \dot{\tilde s}\right)", "refuted", glyph="27.glyph",
-             rests_on=("25", "26"), premises=("25.glyph",), scope=EVERY_NETWORK,
+             rests_on=("25.glyph", "26"), premises=("25.glyph",), scope=EVERY_NETWORK,
              where=TRACKED | f_v | {r"\tilde\varepsilon_f(z_1)": eps_tilde_left,
                                     r"\gamma(\dot{\tilde s} + k_1\tilde s)": gamma_1(signal)},
              reading="f_v is what the third line of (26) says; accents are read as (26) has them.",
@@ -211,3 +211,40 @@ f_v_inside = (M / chi * (k_4 * (sdot_d - v_hat + k_1 * s_error) + sddot_d - f_ha
 def uncertainty_contains_input() -> Goal:
     """(27) with eps_tilde written out."""
     return Goal((equal(_with_networks(f_v_stated), f_v_inside),))
+
+
+u_other = sp.Symbol("u_other", real=True)
+feed_through = v_hat_rate + chi / M * u  # an observer that is told the input, f_hat for the rest of (9)
+
+
+def _input_drives(estimate_rate: sp.Expr) -> Goal:
+    """The rates of e_v at two inputs, all else the same, by the observer's rate of v_hat."""
+    rate = k_4 * (sdot_d - s_hat_rate) + sddot_d - estimate_rate  # 24.glyph
+    driven = M / chi * (rate - rate.xreplace({u: u_other}))
+    return Goal((equal(driven, -(u - u_other)),))
+
+
+@paper.claim("26.input", "The input drives e_v", "identity",
+             r"\frac{M}{\chi}\dot e_v = f_v - \frac{M}{\chi}d(t) - u(t),\ f_v\ \text{the same for}\ u\ \text{and}\ u' "
+             r"\Rightarrow \frac{M}{\chi}(\dot e_v|_u - \dot e_v|_{u'}) = -(u - u')", "refuted", origin="implied",
+             premises=("24.glyph",), rests_on=(), scope=EVERY_NETWORK, correction=lambda: _input_drives(feed_through),
+             reading="What (31) is designed for, by the last line of (26). f_hat and all states are the same at both inputs.",
+             corrected_statement=r"\dot{\hat v} = \frac{\chi}{M}u + \hat f - k_2\tilde s - k_3\dot{\tilde s} + D_1 "
+                                 r"\Rightarrow \frac{M}{\chi}(\dot e_v|_u - \dot e_v|_{u'}) = -(u - u')",
+             note="e_v is made of the observer's own states, and (12) does not contain u beside f_hat: u does not move e_v at "
+                  "all. The last line of (26) is an identity, but the -u in it is taken back by the +u in f_v (27.input). u "
+                  "acts on e_v only through u among the inputs of h_f(z_1_hat), times the learnt weights, whose sign and size "
+                  "nothing ensures; |eps_v| <= theta then presupposes a bounded u. Remedy: tell the observer the input, "
+                  "f_hat being the estimate of the rest of (9), see 26.input.mended; that needs chi/M.")
+def input_drives() -> Goal:
+    """By (12) with k_3 s_tilde', as (25) has it."""
+    return _input_drives(v_hat_rate)
+
+
+@paper.claim("26.input.mended", "The input drives e_v where the observer is told it", "identity",
+             r"\dot{\hat v} = \frac{\chi}{M}u + \hat f - k_2\tilde s - k_3\dot{\tilde s} + D_1 "
+             r"\Rightarrow \frac{M}{\chi}(\dot e_v|_u - \dot e_v|_{u'}) = -(u - u')", "proved", origin="ours",
+             mends="26.input", premises=("24.glyph",), scope=EVERY_NETWORK)
+def input_drives_mended() -> Goal:
+    """With (chi/M) u in the rate of v_hat."""
+    return _input_drives(feed_through)

@@ -33,35 +33,36 @@ def _lemma_1(sign: int, factor: int = 1) -> Goal:
 
 @paper.claim("41", "Lemma 1", "inequality",
              r"\tilde\theta^T(\hat\theta - \theta_0) = -\|\tilde\theta\|^2 + \tilde\theta^T(\theta - \theta_0) \le "
-             r"-0.5\|\tilde\theta\|^2 + 0.5\|\theta - \theta_0\|^2", "refuted", severity="result", rests_on=(),
-             scope=EVERY_DIMENSION, where=LEMMA, correction=lambda: _lemma_1(1, -1),
+             r"-0.5\|\tilde\theta\|^2 + 0.5\|\theta - \theta_0\|^2", "proved", severity="result", rests_on=(),
+             scope=EVERY_DIMENSION, where=LEMMA | {r"\hat\theta - \theta_0": x_off - x_tilde},
+             reading="theta_tilde = theta - theta_hat, truth minus estimate: the lemma is cited, and does not say which it "
+                     "is. The accent in the first bracket is read as a hat, as in (42) and (54).",
+             note="The paper's own errors are estimate minus truth; to them it does not apply, see 41.reversed.")
+def lemma_1() -> Goal:
+    """With truth minus estimate."""
+    return _lemma_1(-1)
+
+
+@paper.claim("41.reversed", "Lemma 1 for an error of the opposite sign, estimate minus truth", "inequality",
+             r"\tilde\theta = \hat\theta - \theta:\quad \tilde\theta^T(\hat\theta - \theta_0) = -\|\tilde\theta\|^2 + "
+             r"\tilde\theta^T(\theta - \theta_0) \le -\tfrac12\|\tilde\theta\|^2 + \tfrac12\|\theta - \theta_0\|^2",
+             "refuted", origin="implied", rests_on=(), scope=EVERY_DIMENSION, correction=lambda: _lemma_1(1, -1),
              corrected_statement=r"-\tilde\theta^T(\hat\theta - \theta_0) \le -\tfrac12\|\tilde\theta\|^2 + "
                                  r"\tfrac12\|\theta - \theta_0\|^2",
-             reading="theta_tilde = theta_hat - theta, as the proof of Theorem 2 defines it and all errors are defined; the "
-                     "accent in the first bracket is read as a hat, as in (42) and (54).",
-             note="With estimate minus truth the square has a plus sign. True for truth minus estimate, see 41.reversed. "
-                  "Hence the leakage of (19), (21), (32), (35) has the wrong sign, and both theorems fall as printed; with "
-                  "minus signs there the mended form serves.")
-def lemma_1() -> Goal:
-    """With the paper's estimation error."""
+             reading="The errors W_tilde, delta_tilde and theta_tilde that (42) and (54) apply the lemma to.",
+             note="With estimate minus truth the square has a plus sign. Hence the leakage of (19), (21), (32), (35) has the "
+                  "wrong sign, and both theorems fall as printed; with minus signs there the mended form serves.")
+def lemma_1_reversed() -> Goal:
+    """With the paper's estimation errors."""
     return _lemma_1(1)
 
 
 @paper.claim("41.mended", "Lemma 1 for a leakage with a minus sign", "inequality",
              r"-\tilde\theta^T(\hat\theta - \theta_0) \le -0.5\|\tilde\theta\|^2 + 0.5\|\theta - \theta_0\|^2", "proved",
-             origin="ours", mends="41", scope=EVERY_DIMENSION, where=LEMMA)
+             origin="ours", mends="41.reversed", scope=EVERY_DIMENSION, where=LEMMA)
 def lemma_1_mended() -> Goal:
     """The left side times -1."""
     return _lemma_1(1, -1)
-
-
-@paper.claim("41.reversed", "Lemma 1 for an error of the opposite sign", "inequality",
-             r"\tilde\theta = \theta - \hat\theta:\quad \tilde\theta^T(\hat\theta - \theta_0) = -\|\tilde\theta\|^2 + "
-             r"\tilde\theta^T(\theta - \theta_0) \le -\tfrac12\|\tilde\theta\|^2 + \tfrac12\|\theta - \theta_0\|^2",
-             "proved", origin="ours", scope=EVERY_DIMENSION)
-def lemma_1_reversed() -> Goal:
-    """With truth minus estimate."""
-    return _lemma_1(-1)
 
 
 scale, slack, kappa = sp.symbols("h delta_any kappa", real=True)
@@ -127,11 +128,13 @@ def robust_claims(equation: str, name: str, symbols: tuple[sp.Expr, ...], latex:
     """
     error, residual, bound, kappa = symbols
     e, r, b, k = latex
+    defined = {"42": "38.delta", "54": "52.theta"}[equation]
     left = rf"{e}{b} - {e}\gamma({e}){b}"
-    corrected = rf"|{r}| \le {b} \Rightarrow {e}{r} - {e}\gamma({e}){b} \le 0.2785{k}{b}"
+    drive = rf"{e}({r})" if "-" in r else e + r
+    corrected = rf"|{r}| \le {b} \Rightarrow {drive} - {e}\gamma({e}){b} \le 0.2785{k}{b}"
 
     @paper.claim(f"{equation}.{name}", f"Lemma 2 applied to {name}", "inequality", rf"{left} \le 0.2785{k}{b}",
-                 "refuted", premises=("lemma2.glyph",), rests_on=("lemma2",),
+                 "refuted", premises=("lemma2.glyph",), rests_on=("lemma2.glyph", defined),
                  correction=lambda: _robust_bound(error, residual, bound, kappa, *within(residual, bound)),
                  corrected_statement=corrected,
                  note=f"False for negative {name}, which its definition allows ({name} = {definition}). An absolute value "
@@ -168,7 +171,7 @@ def leak_claims(equation: str, name: str, leak: sp.Expr, printed: sp.Expr, bound
     scope = EVERY_NETWORK if leak.has(sp.Sum) else "all values of the domain"
 
     @paper.claim(f"{equation}.{name}", f"Lemma 1 applied to the leakage of {name}", "inequality",
-                 rf"{latex[0]} = {latex[1]} \le {latex[2]}", "refuted", rests_on=("41", leakage), where=ERRORS,
+                 rf"{latex[0]} = {latex[1]} \le {latex[2]}", "refuted", rests_on=("41.reversed", leakage), where=ERRORS,
                  scope=scope, correction=lambda: Goal((at_most(-leak, bound),)),
                  corrected_statement=rf"-{latex[0]} \le {latex[2]}", note=remark,
                  reading="Accents and signs of norms as (19), (21), (32), (35) and Lemma 1 have them.")
@@ -189,12 +192,12 @@ leak_claims("42", "weights", leak_f, sigma_f * (-norm_f + over_neurons(W_f_tilde
             (r"\sigma_f\tilde W_f^T(\hat W_f - W_{f0})",
              r"\sigma_f(-\|\tilde W_f\|^2 + \tilde W_f^T(W_f - W_{f0}))",
              r"-\frac{\sigma_f}{2}\|\tilde W_f\|^2 + \frac{\sigma_f}{2}\|W_f - W_{f0}\|^2"),
-            "19.leakage", "See (41); true when the leakage enters with minus.")
+            "19.leakage", "See 41.reversed; true when the leakage enters with minus.")
 leak_claims("42", "estimate", leak_delta, -beta_1 * delta_tilde**2 + beta_1 * delta_tilde * delta_off,
             bound_delta,
             (r"\beta_1\tilde\delta(\hat\delta - \delta_0)", r"-\beta_1\tilde\delta^2 + \beta_1\tilde\delta"
              r"(\delta - \delta_0)", r"-\frac{\beta_1}{2}\tilde\delta^2 + \frac{\beta_1}{2}(\delta - \delta_0)^2"),
-            "21.leakage", "See (41); true when the leakage enters with minus. (42) prints this line twice.")
+            "21.leakage", "See 41.reversed; true when the leakage enters with minus. (42) prints this line twice.")
 
 mu_1_stated = sigma_f / 2 * prior_f + beta_1 / 2 * delta_off**2 + constant * kappa_1 * delta_size
 bound_43 = (-k_1 * s_tilde**2 - k_3 * v_tilde**2 - sigma_f / 2 * norm_f - beta_1 / 2 * delta_tilde**2 + mu_1_stated)
@@ -213,10 +216,10 @@ def _mended_43() -> Goal:
 
 
 @paper.claim("43", "Bound of the rate of V_1", "inequality", PRINTED_43, "refuted", premises=("39.mended",),
-             rests_on=("39", "40", "42.delta", "42.delta.size", "42.weights", "42.estimate"), scope=EVERY_NETWORK,
+             rests_on=("39", "42.delta", "42.delta.size", "42.weights", "42.estimate"), scope=EVERY_NETWORK,
              where=ERRORS, correction=_mended_43,
-             corrected_statement=r"\text{the same for minus signs in (19), (21) and a constant}\ \delta \ge "
-                                 r"|\tilde\varepsilon_f|",
+             corrected_statement=r"\text{the same with minus signs before the leakage of (19), (21), with (40), and for a "
+                                 r"constant}\ \delta \ge |\tilde\varepsilon_f|",
              reading="The accent over delta in (delta - delta_0)^2 is read as Lemma 1 forces it.",
              note="Along the laws as printed, with (40) and a constant delta. Two causes, each of which suffices: the sign "
                   "of the leakage, by which it is broken here for delta >= 0, and a delta that may be negative "

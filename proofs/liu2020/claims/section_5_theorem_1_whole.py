@@ -9,7 +9,7 @@ from workbench.proof.claim import D, Goal, at_most, equal, greater
 from ..error_dynamics import delta_tilde, eps_tilde, observer_loop, t
 from ..exact_motions import hidden_f, observer_motion, weight_f
 from ..laws import alpha_1, beta_1, k_1, k_2, k_3, kappa_1, s_tilde, sigma_f, v_tilde
-from ..lyapunov import V_f, bounded_by_eigenvalue, lambda_f, mu, norm_f, positive, rho, square_f
+from ..lyapunov import V_f, bounded_by_eigenvalue, largest_f, mu, norm_f, positive, rho, square_f
 from ..notation import ERRORS
 from ..paper import EVERY_NETWORK, paper
 from ..smooth_sign import smooth_sign_facts
@@ -21,14 +21,16 @@ from .section_5_theorem_1_eq_44_to_48 import V_t
 @paper.claim("theorem1", "Theorem 1: all signals of the observer are ultimately bounded", "limit",
              r"\text{all the signals in the closed-loop systems}\ (13)\ \text{and}\ (14)\ \text{are uniformly "
              r"ultimately bounded}", "refuted",
-             severity="result", match="words", closed_loop=True, rests_on=("47",), scope="one neuron",
+             severity="result", match="words", closed_loop=True, rests_on=("15", "43"), scope="one neuron",
              reading="A bounded signal is in the end below t, so W_f_tilde^T h_f would be, along (13), (18) to (21).",
              note="With an exact network (eps_tilde = delta = 0), right priors and (40), the printed loop has a solution in "
-                  "which f_hat grows as exp(t) and D_1 as -exp(t), while v_tilde stays at log(3)/2: the leakage of (19) "
-                  "and (21) drives the estimates away from their priors. With minus signs there and a constant delta >= "
-                  "|eps_tilde_f| the theorem holds, see theorem1.mended.")
+                  "which f_hat grows as exp(t) and D_1 as -exp(t), while v_tilde stays where it is: the leakage of (19) "
+                  "and (21) drives the estimates away from their priors. Simpler still, delta_hat leaves its prior as "
+                  "exp(alpha_1 beta_1 t) while all other errors are zero, for all gains (48.zero). With minus signs there "
+                  "and a constant delta >= |eps_tilde_f| the theorem holds, see theorem1.mended. (40), and (12) and (21) as "
+                  "the laws that are taken, are missing among its hypotheses.")
 def theorem_1() -> Goal:
-    """W_f_tilde h_f = exp(t) + log(3)/2 along the printed loop."""
+    """W_f_tilde h_f = exp(t) + a constant along the printed loop."""
     return observer_motion(at_most(weight_f * hidden_f, t))
 
 
@@ -57,35 +59,41 @@ def mended_rate() -> Goal:
 @paper.claim("theorem1.decay", "The Lyapunov function of the mended observer decays", "inequality",
              r"\dot V \le -\rho V + \mu_1", "proved", origin="ours", rests_on=(), premises=("theorem1.damped",),
              scope=EVERY_NETWORK, where=ERRORS | {"V": V_weighted, r"\rho": rho, r"\mu_1": mu_1_bound},
-             note="For all ten columns of Table 2 and rho at most k_3, 2 k_1 k_2/(k_2 + k_1 k_3 + 2 k_1^2), "
-                  "sigma_f/lambda_max(Gamma_f^-1) and alpha_1 beta_1.")
+             note="For all ten columns of Table 2, V that of theorem1.damped and rho at most k_3, "
+                  "2 k_1 k_2/(k_2 + k_1 k_3 + 2 k_1^2), sigma_f/lambda_max(Gamma_f^-1) and alpha_1 beta_1.")
 def mended_decay() -> Goal:
     """From theorem1.damped, by v_tilde^2 <= 2 s_tilde'^2 + 2 k_1^2 s_tilde^2."""
     rates = (at_most(rho, k_3), at_most(rho * (k_2 + k_1 * k_3 + 2 * k_1**2), 2 * k_1 * k_2),
-             at_most(rho * lambda_f, sigma_f), at_most(rho, alpha_1 * beta_1))
+             at_most(rho * largest_f, sigma_f), at_most(rho, alpha_1 * beta_1))
     return Goal((at_most(D(V_weighted), -rho * V_weighted + mu_1_bound),),
-                (rate_of_s, *paper.shown("theorem1.damped"), *rates, bounded_by_eigenvalue(square_f, norm_f, lambda_f)),
+                (rate_of_s, *paper.shown("theorem1.damped"), *rates, bounded_by_eigenvalue(square_f, norm_f, largest_f)),
                 free_1, lemmas=(at_most(v_tilde**2, 2 * s_tilde_rate**2 + 2 * k_1**2 * s_tilde**2),
                                 at_most(damped, -rho * V_weighted + mu_1_bound)))
 
 
+LAW_1 = (r"\text{With a minus sign before the leakage of (19) and (21), a constant}\ \delta \ge |\tilde\varepsilon_f|,\ "
+         r"V = \tfrac12\left((k_2 + k_1k_3)\tilde s^2 + \tilde v^2 + \tilde W_f^T\Gamma_f^{-1}\tilde W_f + "
+         r"\tfrac{1}{\alpha_1}\tilde\delta^2\right),\ "
+         r"\rho = \min\left\{k_3, \frac{2k_1k_2}{k_2 + k_1k_3 + 2k_1^2}, \frac{\sigma_f}{\lambda_{\max}(\Gamma_f^{-1})}, "
+         r"\alpha_1\beta_1\right\},\ \mu = \frac{\sigma_f}{2}\|W_f^* - W_{f0}\|^2 + \frac{\beta_1}{2}(\delta - \delta_0)^2 "
+         r"+ 0.2785\kappa_1\delta:\ ")
+BOUND_1 = r"2\left(\frac{\mu}{\rho} + c\right)"
+
+
 @paper.claim("theorem1.mended", "Theorem 1 with the leakage turned", "implication",
-             r"\text{With a minus sign before the leakage of (19) and (21) and a constant}\ \delta \ge "
-             r"|\tilde\varepsilon_f|, \text{for every}\ c > 0\ \text{from some time on:}\ "
-             r"(k_2 + k_1k_3)\tilde s^2 \le 2\left(\frac{\mu_1}{\rho_1} + c\right),\ \tilde v^2 \le "
-             r"2\left(\frac{\mu_1}{\rho_1} + c\right),\ \tilde W_f^T\Gamma_f^{-1}\tilde W_f \le "
-             r"2\left(\frac{\mu_1}{\rho_1} + c\right),\ \tilde\delta^2 \le 2\alpha_1\left(\frac{\mu_1}{\rho_1} + "
-             r"c\right)", "proved", origin="ours", mends="theorem1", severity="result", rests_on=(),
+             LAW_1 + r"\text{for every}\ c > 0\ \text{from some time on}\ (k_2 + k_1k_3)\tilde s^2 \le " + BOUND_1 +
+             rf",\ \tilde v^2 \le {BOUND_1},\ \tilde W_f^T\Gamma_f^{{-1}}\tilde W_f \le {BOUND_1},\ \tilde\delta^2 \le "
+             rf"\alpha_1 \cdot {BOUND_1}", "proved", origin="ours", mends="theorem1", severity="result", rests_on=(),
              premises=("theorem1.decay", "comparison", "48.mended"), scope=EVERY_NETWORK,
-             where=ERRORS | {r"\mu_1": mu, r"\rho_1": rho, "c": slack},
-             note="For every c > 0, from t = V(0)/(rho c) on, and all k_i > 0: all signals of the observer are uniformly "
-                  "ultimately bounded, with minus signs before the leakage of (19) and (21) and a constant delta that "
-                  "bounds |eps_tilde_f|, as it does while z_1 stays in Omega. V decays (theorem1.decay), so it meets the "
-                  "bound of 48.mended. The laws still use v_tilde, which is not measured (19.measured).")
+             reading="rho is not that of (44): V has another weight on s_tilde, so that (40) is not needed.",
+             note="For all k_i > 0 all signals of the observer are uniformly ultimately bounded. V decays (theorem1.decay), so "
+                  "that V <= mu/rho + V(0) exp(-rho t) (48.mended): c counts from t = (1/rho) ln(V(0)/c) on. delta bounds "
+                  "|eps_tilde_f| while z_1 stays in Omega (15.inside), see 18.bounded for one that does. The laws still "
+                  "use v_tilde, which is not measured (19.measured).")
 def theorem_1_mended() -> Goal:
     """What a V near mu/rho means for each signal."""
     ultimate, = paper.shown("48.mended")
-    bound = 2 * (mu / rho + slack)
-    return Goal((at_most((k_2 + k_1 * k_3) * s_tilde**2, bound), at_most(v_tilde**2, bound), at_most(square_f, bound),
-                 at_most(delta_tilde**2, 2 * alpha_1 * (mu / rho + slack))),
-                (ultimate.subs({V_t: V_weighted}), greater(slack, 0)))
+    level = mu_1_bound / rho + slack
+    return Goal((at_most((k_2 + k_1 * k_3) * s_tilde**2, 2 * level), at_most(v_tilde**2, 2 * level),
+                 at_most(square_f, 2 * level), at_most(delta_tilde**2, 2 * alpha_1 * level)),
+                (ultimate.subs({V_t: V_weighted, mu: mu_1_bound}), greater(slack, 0)))

@@ -35,13 +35,13 @@ PRINTED_50 = (r"\dot V_2 = \dot V_1 + \frac{M}{\chi}e_v\dot e_v + \tilde W_v^T\G
 mass_rate = sp.Symbol("Mdot", real=True)
 
 
-@paper.claim("50", "Rate of V_2 before the laws are put in", "identity", PRINTED_50, "refuted", severity="cosmetic",
+@paper.claim("50", "Rate of V_2 before the laws are put in", "implication", PRINTED_50, "gap", severity="cosmetic",
              rests_on=("37",), scope=EVERY_NETWORK, where=ERRORS,
              correction=lambda: Goal((equal(D(V_2), D(V_1) + rate_tracking),), flow=free_2),
              corrected_statement=r"\dot M = 0:\quad " + PRINTED_50,
-             reading="M varies in time, as (2), (3) and (4) write it.",
-             note="M'e_v^2/(2 chi) is missing then. With a constant M, as (1) and (9) write it and as section 6 has it, the "
-                  "line holds, see 50.mended.")
+             reading="Of M(t), as (2), (3) and (4) write it.",
+             note="The proof needs a constant M, as (1) and (9) write it and as section 6 has it: then the line holds, see "
+                  "50.mended. Of M(t) the term M'e_v^2/(2 chi) is missing.")
 def v2_rate_open() -> Goal:
     """D(V_2) with free rates, that of M among them."""
     return Goal((equal(D(V_2), D(V_1) + rate_tracking),), flow=free_2 | {M: mass_rate})
@@ -56,7 +56,7 @@ def v2_rate_constant_mass() -> Goal:
 
 @paper.claim("51", "Rate of V_2 once more", "identity",
              r"\dot V_2 = \frac{M}{\chi}e_v\dot e_v + \tilde W_v^T\Gamma_v^{-1}\dot{\tilde W}_v + \frac{1}{\alpha_2}"
-             r"\dot{\tilde\theta}", "refuted", severity="cosmetic", rests_on=("50",), scope=EVERY_NETWORK, where=ERRORS,
+             r"\dot{\tilde\theta}", "refuted", severity="cosmetic", rests_on=("50.mended",), scope=EVERY_NETWORK, where=ERRORS,
              correction=lambda: Goal((equal(D(V_2), D(V_1) + rate_tracking),), flow=free_2),
              corrected_statement=PRINTED_50,
              note="V_1' has been lost, and theta_tilde in the last term; (52) has both again, so nothing follows from the "
@@ -69,7 +69,7 @@ def v2_rate_without_v1() -> Goal:
 
 @paper.claim("52.theta", "The error of the estimate of theta moves as the estimate does", "implication",
              r"\tilde\theta = \hat\theta - \theta,\ \theta = \varepsilon_v(z_2) - \tfrac{M}{\chi}d(t) \Rightarrow "
-             r"\dot{\tilde\theta} = \dot{\hat\theta}", "gap", origin="implied", rests_on=("50",),
+             r"\dot{\tilde\theta} = \dot{\hat\theta}", "gap", origin="implied", rests_on=("50.mended",),
              correction=lambda: moves_alike(theta_hat, theta, constant_truth=True),
              corrected_statement=r"\theta\ \text{constant} \Rightarrow \dot{\tilde\theta} = \dot{\hat\theta}",
              note="theta contains d(t), which (70) and (71) let oscillate; the term -theta_tilde theta'/alpha_2 is missing "
@@ -84,19 +84,19 @@ leak_theta = beta_2 * theta_tilde * (theta_tilde + theta_off)
 robust_52 = gamma_2(e_v) * (theta + theta_tilde)  # (34)
 
 
-def _bracket_52(sign: int) -> sp.Expr:
-    """The first bracket of (52) times e_v; eps_v - (M/chi) d is theta."""
-    return e_v * (-k_5 * e_v + sign * over_neurons(W_v_tilde * h_v) + theta - robust_52)
+def _bracket_52(sign: int, residual: sp.Expr) -> sp.Expr:
+    """The first bracket of (52) times e_v; eps_v - (M/chi) d is the residual."""
+    return e_v * (-k_5 * e_v + sign * over_neurons(W_v_tilde * h_v) + residual - robust_52)
 
 
 learning_52 = over_neurons(W_v_tilde * (-h_v * e_v + sigma_v * (W_v_tilde + W_v_off)))
 estimate_52 = theta_tilde * (gamma_2(e_v) * e_v + beta_2 * (theta_tilde + theta_off))
 
 
-def _rate_52(sign: int, h_limited: bool = False) -> Goal:
-    stated = D(V_1) + _bracket_52(sign) + learning_52 + estimate_52
+def _rate_52(sign: int, residual: sp.Expr, h_limited: bool = False) -> Goal:
+    stated = D(V_1) + _bracket_52(sign, residual) + learning_52 + estimate_52
     return Goal((equal(D(V_2), stated),), small_hidden(h_v) if h_limited else (),
-                flow=free_1 | tracking_loop())
+                flow=free_1 | tracking_loop(residual=residual))
 
 
 def _printed_52(sign: str) -> str:
@@ -107,65 +107,74 @@ def _printed_52(sign: str) -> str:
 
 
 LETTERS_52 = ERRORS | {"D_2": robust_52, r"\varepsilon_v(z_2)": theta + M / chi * d}  # theta as the text defines it
+MENDED_52 = LETTERS_52 | {r"\varepsilon_v(z_2)": eps_v + M / chi * d}  # theta any constant
 
 
 @paper.claim("52", "Rate of V_2 with the laws", "identity", _printed_52("+"), "refuted", premises=("33.mended", "50.mended"),
-             rests_on=("32", "33", "35", "50", "52.theta"), scope=EVERY_NETWORK, where=LETTERS_52, correction=lambda: _rate_52(-1),
-             corrected_statement=_printed_52("-"),
+             rests_on=("32", "33", "35", "50.mended", "52.theta"),
+             scope=EVERY_NETWORK, where=LETTERS_52, correction=lambda: _rate_52(-1, eps_v),
+             corrected_statement=r"\dot\theta = 0:\quad " + _printed_52("-"),
              reading="The second bracket has z_2 where (32) has e_v, which is read; theta_tilde moves as theta_hat does.",
              note="The sign of (33): W_v_tilde^T h_v enters with minus.")
 def v2_rate_laws() -> Goal:
     """D(V_2) along the closed loop as printed, for any rates of the observer's errors."""
-    return _rate_52(1, h_limited=True)
+    return _rate_52(1, theta, h_limited=True)
 
 
 @paper.claim("52.mended", "Rate of V_2 with the laws, the weights' sign turned", "identity", _printed_52("-"), "proved",
              origin="ours", mends="52", premises=("33.mended", "50.mended"), rests_on=(), scope=EVERY_NETWORK,
-             where=LETTERS_52)
+             where=MENDED_52, note="For any constant theta, whether it is eps_v - (M/chi) d or a bound of it.")
 def v2_rate_laws_mended() -> Goal:
     """D(V_2) along the closed loop with the sign of 33.mended."""
-    return _rate_52(-1)
+    return _rate_52(-1, eps_v)
 
 
-rate_53 = -k_5 * e_v**2 + e_v * (theta - gamma_2(e_v) * theta) + leak_v + leak_theta
-PRINTED_53 = (r"\dot V_2 = \dot V_1 - k_5e_v^2 + e_v(\theta - \gamma(e_v)\theta) + \tilde W_v^T\sigma_v(\hat W_v - W_{v0}) + "
-              r"\tilde\theta\beta_2(\hat\theta - \theta_0)")
+def _printed_53(residual: str) -> str:
+    return (rf"\dot V_2 = \dot V_1 - k_5e_v^2 + e_v({residual} - \gamma(e_v)\theta) + \tilde W_v^T\sigma_v(\hat W_v - W_{{v0}}) + "
+            r"\tilde\theta\beta_2(\hat\theta - \theta_0)")
 
 
-def _rate_53(learn: int, h_limited: bool = False) -> Goal:
-    return Goal((equal(D(V_2), D(V_1) + rate_53),), small_hidden(h_v) if h_limited else (),
-                flow=free_1 | tracking_loop(learn=learn))
+PRINTED_53, MENDED_53 = _printed_53(r"\theta"), _printed_53(r"\varepsilon_v(z_2) - \frac{M}{\chi}d(t)")
+
+
+def _rate_53(learn: int, residual: sp.Expr, h_limited: bool = False) -> Goal:
+    rate = -k_5 * e_v**2 + e_v * (residual - gamma_2(e_v) * theta) + leak_v + leak_theta
+    return Goal((equal(D(V_2), D(V_1) + rate),), small_hidden(h_v) if h_limited else (),
+                flow=free_1 | tracking_loop(learn=learn, residual=residual))
 
 
 @paper.claim("53", "Rate of V_2, collected", "identity", PRINTED_53, "refuted", premises=("33.mended", "50.mended"),
-             rests_on=("32.cancels", "52"), scope=EVERY_NETWORK, where=ERRORS, correction=lambda: _rate_53(1),
-             corrected_statement=r"\text{the same with}\ +h_v(z_2)e_v\ \text{in (32)}",
+             rests_on=("32.cancels", "52"), scope=EVERY_NETWORK, where=ERRORS, correction=lambda: _rate_53(1, eps_v),
+             corrected_statement=r"\text{with}\ +h_v(z_2)e_v\ \text{in (32) and}\ \dot\theta = 0:\quad " + MENDED_53,
              reading="The accent over the last theta is a zero's, as in (35).",
              note="It follows from (52) as printed. In the loop as printed the term -2 e_v W_v_tilde^T h_v is missing; "
-                  "with (32) turned, see 32.turned, (53) is what the loop gives. The text refers to (44) and (51) for (34) "
+                  "with (32) turned, see 32.turned, (53) is what the loop gives. For a constant theta that is a bound, "
+                  "eps_v - (M/chi) d stands in the place of the first theta. The text refers to (44) and (51) for (34) "
                   "and (52).")
 def v2_rate_collected() -> Goal:
     """D(V_2) along the loop as printed, for any rates of the observer's errors."""
-    return _rate_53(-1, h_limited=True)
+    return _rate_53(-1, theta, h_limited=True)
 
 
-@paper.claim("53.mended", "Rate of V_2, collected, for (32) turned", "identity", PRINTED_53, "proved", origin="ours",
-             mends="53", premises=("32.turned", "50.mended"), rests_on=(), scope=EVERY_NETWORK, where=ERRORS)
+@paper.claim("53.mended", "Rate of V_2, collected, for (32) turned", "identity", MENDED_53, "proved", origin="ours",
+             mends="53", premises=("32.turned", "50.mended"), rests_on=(), scope=EVERY_NETWORK,
+             where=ERRORS | {r"\varepsilon_v(z_2)": eps_v + M / chi * d},
+             note="For any constant theta, whether it is eps_v - (M/chi) d or a bound of it.")
 def v2_rate_collected_mended() -> Goal:
     """D(V_2) along the loop with plus before h_v e_v."""
-    return _rate_53(1)
+    return _rate_53(1, eps_v)
 
 
 robust_claims("54", "theta", (e_v, eps_v, theta, kappa_2),
-              ("e_v", r"\varepsilon_v", r"\theta", r"\kappa_2"), "eps_v - (M/chi) d")
+              ("e_v", r"\varepsilon_v - \frac{M}{\chi}d", r"\theta", r"\kappa_2"), "eps_v - (M/chi) d")
 
 bound_v = -sigma_v / 2 * norm_v + sigma_v / 2 * prior_v
 bound_theta = -beta_2 / 2 * theta_tilde**2 + beta_2 / 2 * theta_off**2
 leak_claims("54", "weights", leak_v, -norm_v + over_neurons(W_v_tilde * W_v_off), bound_v,
             (r"\tilde W_v^T\sigma_v(\hat W_v - W_{v0})", r"-\|\tilde W_v\|^2 + \tilde W_v^T(W_v - W_{v0})",
              r"-\frac{\sigma_v}{2}\|\tilde W_v\|^2 + \frac{\sigma_v}{2}\|W_v - W_{v0}\|^2"),
-            "32.leakage", "See (41); true when the leakage enters with minus. sigma_v is missing in the middle as well, a slip.")
+            "32.leakage", "See 41.reversed; true when the leakage enters with minus. sigma_v is missing in the middle as well, a slip.")
 leak_claims("54", "estimate", leak_theta, -beta_2 * theta_tilde**2 + beta_2 * theta_tilde * theta_off, bound_theta,
             (r"\beta_2\tilde\theta(\hat\theta - \theta_0)", r"-\beta_2\tilde\theta^2 + \beta_2\tilde\theta"
              r"(\theta - \theta_0)", r"-\frac{\beta_2}{2}\tilde\theta^2 + \frac{\beta_2}{2}(\theta - \theta_0)^2"),
-            "35.leakage", "See (41); true when the leakage enters with minus.")
+            "35.leakage", "See 41.reversed; true when the leakage enters with minus.")

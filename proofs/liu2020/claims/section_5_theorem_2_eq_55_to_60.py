@@ -17,6 +17,8 @@ from ..lyapunov import (
     delta_size,
     lambda_f,
     lambda_v,
+    largest_f,
+    largest_v,
     mu,
     norm_f,
     norm_v,
@@ -57,7 +59,7 @@ smooth_2 = (*smooth_sign(e_v, kappa_2),
             at_most(e_v * eps_v - e_v * gamma_2(e_v) * theta, constant * kappa_2 * theta))
 TRACKING_55 = (r"-k_5e_v^2 + 0.2785\kappa_2|\theta| - \frac{\sigma_v}{2}\|\tilde W_v\|^2 + \frac{\sigma_v}{2}"
                r"\|W_v - W_{v0}\|^2 - \frac{\beta_2}{2}\tilde\theta^2 + \frac{\beta_2}{2}(\theta - \theta_0)^2")
-TURNED = (r"\text{for}\ \dot{\hat W}_v = \Gamma_v(+h_ve_v - \sigma_v(\hat W_v - W_{v0})),\ \text{a minus sign in (35), a "
+TURNED = (r"\text{With}\ \dot{\hat W}_v = \Gamma_v(+h_ve_v - \sigma_v(\hat W_v - W_{v0})),\ \text{a minus sign in (35), a "
           r"constant}\ \theta \ge |\varepsilon_v - \tfrac{M}{\chi}d|")
 
 
@@ -69,7 +71,7 @@ def _mended_55() -> Goal:
 @paper.claim("55.first", "Bound of the rate of V_2", "inequality", r"\dot V_2 \le \dot V_1 " + TRACKING_55, "refuted",
              premises=("53.mended",), rests_on=("53", "54.theta", "54.theta.size", "54.weights", "54.estimate"),
              scope=EVERY_NETWORK, where=ERRORS, correction=_mended_55,
-             corrected_statement=r"\text{the same for}\ V_2 - V_1\ " + TURNED,
+             corrected_statement=TURNED + r":\quad \dot V_2 \le \dot V_1 " + TRACKING_55,
              reading="The first inequality of (55); the accent over theta in (theta - theta_0)^2 as Lemma 1 forces it.",
              note="Three causes: the sign of the leakage, the sign of (32), and a theta that may be negative "
                   "(54.theta.size); broken here for a constant theta >= 0.")
@@ -123,7 +125,7 @@ paper.definition("56", "The bound mu and the rate rho of V_2",
                  reading="The accents over delta and theta in the squares are read as in (43) and (55).",
                  note="(57) calls them mu_2 and rho_2. Here the entry of delta is alpha_1 beta_1, in (44) it is beta_1/alpha_1.")
 
-weights_decay_claim("56", "v", sigma_v, lambda_v, norm_v, square_v)
+weights_decay_claim("56", "v", sigma_v, lambda_v, largest_v, norm_v, square_v)
 
 
 @paper.claim("56.rates", "The other entries of (56)", "inequality",
@@ -138,8 +140,8 @@ def other_rates() -> Goal:
                  at_most(-beta_2 / 2 * theta_tilde**2, -rho * theta_tilde**2 / (2 * alpha_2))), rates_scalar)
 
 
-rates_2 = (*rates_1, *rates_scalar, at_most(rho * lambda_v, sigma_v))
-largest = (bounded_by_eigenvalue(square_f, norm_f, lambda_f), bounded_by_eigenvalue(square_v, norm_v, lambda_v))
+rates_2 = (*rates_1(largest_f), *rates_scalar, at_most(rho * largest_v, sigma_v))
+largest = (bounded_by_eigenvalue(square_f, norm_f, largest_f), bounded_by_eigenvalue(square_v, norm_v, largest_v))
 V_2_dot = sp.Symbol("Vdot_2", real=True)
 theta_number = sp.Symbol("theta_size", nonnegative=True)  # |theta|
 mu_2 = sp.Symbol("mu_2", real=True)
@@ -158,17 +160,18 @@ def _mended_57() -> Goal:
              rests_on=("55.second", "56.rates", "56.weights", "44.weights"),
              where={r"\dot V_2": V_2_dot, "V_2": V_2_weights, r"\mu_2": mu_2, r"\rho_2": rho},
              scope="two neurons in the controller's network, diagonal gain, all other errors zero", correction=_mended_57,
-             corrected_statement=r"\text{the same with}\ \lambda_{\max}\ \text{in place of}\ \lambda_{\min}",
+             corrected_statement=r"\text{With}\ \lambda_{\max}\ \text{in place of}\ \lambda_{\min}\ \text{in (56)}:\quad "
+                                 r"\dot V_2 \le -\rho_2V_2 + \mu_2",
              reading="rho_2 is at most each entry of (56), mu_2 is its mu.",
              note="From (55), its doubled term counted once as in (56); see 56.weights for the entry that fails.")
 def decay_2() -> Goal:
     """From (55), met with equality, with the smallest eigenvalue of the tracking network's inverse gain."""
     return Goal((at_most(V_2_dot, -rho * V_2_weights + mu_2),),
-                (equal(V_2_dot, bound_55_weights), *rates_1, *rates_scalar, equal(lambda_v, entry_1),
+                (equal(V_2_dot, bound_55_weights), *rates_1(lambda_f), *rates_scalar, equal(lambda_v, entry_1),
                  at_most(entry_1, entry_2), at_most(rho * lambda_v, sigma_v)))
 
 
-after_decay(2, "57", "58", "59", "60", "49")
+after_decay(2, "57", "58", "59", "60", "49", ("43", "55.first"))
 
 smaller = sp.Symbol("rho_smaller", positive=True)
 
@@ -186,6 +189,8 @@ def decreased() -> Goal:
     return Goal((at_most(mu / smaller, mu / rho),), (at_most(smaller, rho),))
 
 
+# Where (59) is met with equality, and the roots of alpha_i do not matter.
+at_the_end = (equal(V_start, mu / rho), equal(V_2, V_start), equal(alpha_1, 1), equal(alpha_2, 1))
 norm_60 = norm_48 + delta_tilde**2 / alpha_1 + M / chi * e_v**2 + square_v
 size_60 = norm_48 + (delta_tilde / alpha_1) ** 2 + M / chi * e_v**2 + square_v + (theta_tilde / alpha_2) ** 2
 NORM_60 = (r"\left\|\tilde s, \tilde v, \sqrt{\tilde W_f^T\Gamma_f^{-1}\tilde W_f}, \frac{1}{\alpha_1}\tilde\delta, "
@@ -200,8 +205,8 @@ NORM_60 = (r"\left\|\tilde s, \tilde v, \sqrt{\tilde W_f^T\Gamma_f^{-1}\tilde W_
              corrected_statement=r"\left\|\tilde s, \tilde v, \ldots, \tfrac1{\sqrt{\alpha_1}}\tilde\delta, \ldots, "
                                  r"\tfrac{1}{\sqrt{\alpha_2}}\tilde\theta\right\| = \sqrt{2V_2}",
              note="From (59). The factor 2 of (48) is missing, and alpha_i stand without their roots: the bound is too "
-                  "small by the factor sqrt(2) at least; of no consequence for the theorem.")
+                  "small by the factor sqrt(2) where alpha_i = 1, decided there; of no consequence for the theorem.")
 def norm_bound_2() -> Goal:
     """The norm against the bound of (59)."""
     return Goal((at_most(sp.sqrt(size_60), sp.sqrt(mu / rho + (V_start - mu / rho) * sp.exp(-rho * t))),),
-                (at_least(t, 0), at_most(V_2, bound_47)))
+                (at_least(t, 0), at_most(V_2, bound_47), *at_the_end))

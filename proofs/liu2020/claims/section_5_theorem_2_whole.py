@@ -7,8 +7,7 @@ from workbench.proof.claim import D, Goal, at_most, greater
 from ..error_dynamics import t, theta_tilde, w_v
 from ..exact_motions import tracking_motion
 from ..laws import alpha_2, beta_2, e_v, k_5, sigma_v
-from ..lyapunov import V_tracking, bounded_by_eigenvalue, lambda_v, mu, norm_v, positive, rho, square_v
-from ..notation import ERRORS
+from ..lyapunov import V_tracking, bounded_by_eigenvalue, largest_v, mu, norm_v, positive, rho, square_v
 from ..paper import EVERY_NETWORK, paper
 from ..plant import M, chi
 from .section_5_theorem_1_eq_36_to_40 import free_2
@@ -19,53 +18,61 @@ from .section_5_theorem_2_eq_55_to_60 import bound_tracking, mu_2_stated
 
 @paper.claim("theorem2", "Theorem 2: all signals of the closed loop are ultimately bounded", "limit",
              r"\text{all the signals in the closed-loop systems}\ (33)\ \text{are uniformly ultimately bounded}", "refuted",
-             severity="result", match="words", closed_loop=True, rests_on=("23.bounded", "28", "59"),
+             severity="result", match="words", closed_loop=True, rests_on=("23.bounded", "26.input", "28", "43", "55.first"),
              scope="one neuron in each network",
              reading="A bounded signal is in the end below t, so theta_tilde would be, along (13), (18) to (21), (26), "
                      "(28), (31) to (35).",
              note="With exact networks (eps_tilde = 0, theta = 0), right priors and (40) the printed loop has a solution in "
-                  "which theta_hat, and with it D_2, grows as exp(t) and W_v_hat^T h_v as -exp(t), while e_v stays at "
-                  "log(3)/2. The signs of the leakage and of (32) do it; with them turned V_2 decays, see "
-                  "theorem2.mended, but that rests on (28), whose f_v contains the input and is no function of z_2 "
-                  "(27.input, 28.function): this gap remains, so Theorem 2 is not mended by the signs alone.")
+                  "which theta_hat, and with it D_2, grows as exp(t) and W_v_hat^T h_v as -exp(t), while e_v stays "
+                  "where it is. The signs of the leakage and of (32) do it; with them turned V_2 - V_1 decays, see "
+                  "theorem2.mended, but that rests on (28), whose f_v contains the input and is no function of z_2, so that "
+                  "a bounded eps_v presupposes the bounded input that is to be shown (26.input, 28.function): Theorem 2 is "
+                  "not mended by the signs alone. (12), (20), (21), as laws that are taken, and (40) are missing among its "
+                  "hypotheses.")
 def theorem_2() -> Goal:
-    """theta_tilde = 2 exp(t) - log(3)/2 along the printed loop."""
+    """theta_tilde = 2 exp(t) - a constant along the printed loop."""
     return tracking_motion(at_most(theta_tilde, t))
 
 
 mu_tracking = positive(mu_2_stated - mu_1_stated)
+BOUND_21 = r"2\left(\frac{\mu_{21}}{\rho} + c\right)"
 
 
 @paper.claim("theorem2.decay", "V_2 - V_1 decays with the signs turned", "inequality",
              r"\dot V_{21} \le -\rho V_{21} + \mu_{21}", "proved", origin="ours", rests_on=(),
              premises=("55.mended", "56.weights.mended", "56.rates"), scope=EVERY_NETWORK,
              where={r"\rho": rho, "V_{21}": V_tracking, r"\mu_{21}": mu_tracking},
-             note="V_21 is V_2 - V_1 and mu_21 is mu_2 - mu_1. For all ten columns of Table 2; plus before h_v e_v in (32), minus before the leakage of (32) and (35), "
-                  "a constant theta that bounds |eps_v - (M/chi) d|, lambda_max in place of lambda_min.")
+             note="V_21 is V_2 - V_1 and mu_21 is mu_2 - mu_1. For all ten columns of Table 2; plus before h_v e_v in (32), "
+                  "minus before the leakage of (32) and (35), a constant theta that bounds |eps_v - (M/chi) d|, and rho at "
+                  "most 2 chi k_5/M, alpha_2 beta_2 and sigma_v/lambda_max(Gamma_v^-1).")
 def mended_decay() -> Goal:
     """From 55.mended."""
-    rates = (at_most(rho * M, 2 * chi * k_5), at_most(rho, alpha_2 * beta_2), at_most(rho * lambda_v, sigma_v))
+    rates = (at_most(rho * M, 2 * chi * k_5), at_most(rho, alpha_2 * beta_2), at_most(rho * largest_v, sigma_v))
     return Goal((at_most(D(V_tracking), -rho * V_tracking + mu_tracking),),
-                (*paper.shown("55.mended"), *rates, bounded_by_eigenvalue(square_v, norm_v, lambda_v)),
+                (*paper.shown("55.mended"), *rates, bounded_by_eigenvalue(square_v, norm_v, largest_v)),
                 {moving: free_2[moving] for moving in (e_v, w_v, theta_tilde)},
                 lemmas=(at_most(positive(bound_tracking), -rho * V_tracking + mu_tracking),))
 
 
 @paper.claim("theorem2.mended", "Theorem 2 with the signs turned, if (28) holds", "implication",
-             r"\text{With (32) and the leakage of (32) and (35) turned and a constant}\ \theta \ge "
-             r"|\varepsilon_v - \tfrac{M}{\chi}d|, \text{for every}\ c > 0\ \text{from some time on:}\ "
-             r"\frac{M}{\chi}e_v^2 \le 2\left(\frac{\mu_2}{\rho_2} + c\right),\ \tilde W_v^T\Gamma_v^{-1}\tilde W_v \le "
-             r"2\left(\frac{\mu_2}{\rho_2} + c\right),\ \tilde\theta^2 \le 2\alpha_2\left(\frac{\mu_2}{\rho_2} + c\right)",
-             "proved", origin="ours", mends="theorem2", severity="result", rests_on=(),
+             r"\text{With (32) and the leakage of (32) and (35) turned, a constant}\ \theta \ge "
+             r"|\varepsilon_v - \tfrac{M}{\chi}d|,\ V_{21} = \tfrac{M}{2\chi}e_v^2 + \tfrac12\tilde W_v^T\Gamma_v^{-1}\tilde W_v + "
+             r"\tfrac{1}{2\alpha_2}\tilde\theta^2,\ \rho = \min\left\{\frac{2\chi k_5}{M}, \alpha_2\beta_2, "
+             r"\frac{\sigma_v}{\lambda_{\max}(\Gamma_v^{-1})}\right\},\ \mu_{21} = \frac{\sigma_v}{2}\|W_v^* - W_{v0}\|^2 + "
+             r"\frac{\beta_2}{2}(\theta - \theta_0)^2 + 0.2785\kappa_2\theta:\ \text{for every}\ c > 0\ \text{from some time on}\ "
+             rf"\frac{{M}}{{\chi}}e_v^2 \le {BOUND_21},\ \tilde W_v^T\Gamma_v^{{-1}}\tilde W_v \le {BOUND_21},\ "
+             rf"\tilde\theta^2 \le \alpha_2 \cdot {BOUND_21}",
+             "proved", origin="ours", severity="result", rests_on=(),
              premises=("28", "theorem1.mended", "theorem2.decay", "comparison", "60.mended", "23.bounded"), scope=EVERY_NETWORK,
-             where=ERRORS | {r"\mu_2": mu, r"\rho_2": rho, "c": slack},
-             note="For every c > 0 from some time on: V_2 - V_1 decays (theorem2.decay), so it meets the bound of "
-                  "60.mended, and e_s follows (23.bounded). It needs (28) with a bounded eps_v along the motion, for an "
-                  "f_v that contains the input and the estimated weights.")
+             note="No mended form of Theorem 2: it needs (28) with an eps_v that is bounded along the motion, for an f_v that "
+                  "contains the input and the estimated weights. Where that is so, V_21 = V_2 - V_1 decays (theorem2.decay), "
+                  "meets the bound of 60.mended, and the tracking error e_s is in the end at most B/k_4, B being a bound of "
+                  "|e_v + k_1 s_tilde| (23.bounded); the train's own, s_d - s = e_s + s_tilde, adds what theorem1.mended "
+                  "says of s_tilde.")
 def theorem_2_mended() -> Goal:
     """What a V_2 - V_1 near mu/rho means for each signal."""
     ultimate, = paper.shown("60.mended")
-    bound = 2 * (mu / rho + slack)
-    return Goal((at_most(M / chi * e_v**2, bound), at_most(square_v, bound),
-                 at_most(theta_tilde**2, 2 * alpha_2 * (mu / rho + slack))),
-                (ultimate.subs({V_t: V_tracking}), greater(slack, 0)))
+    level = mu_tracking / rho + slack
+    return Goal((at_most(M / chi * e_v**2, 2 * level), at_most(square_v, 2 * level),
+                 at_most(theta_tilde**2, 2 * alpha_2 * level)),
+                (ultimate.subs({V_t: V_tracking, mu: mu_tracking}), greater(slack, 0)))

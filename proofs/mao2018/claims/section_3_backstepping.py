@@ -84,10 +84,11 @@ one_indicator = (chi_m_of,) * len(own_indicators)
              r"b_i\chi_i(t)x_2(t) - c_i\chi_i(t)x_2^2(t) - g\vartheta_i\chi_i(t) - 0.004D_i\chi_i(t) + "
              r"\bar{d}_i(t)\chi_i(t)\right) - \dot{\alpha}_1(t)", "refuted", premises=("8.modes",), severity="cosmetic",
              scope=ALL_MODES, where={"z_2": x_2 - alpha_1, "z_2(t)": x_2 - alpha_1, r"\dot{z}_2(t)": D(x_2 - alpha_1), "m_i": m_of, r"\chi_i(t)": chi_m_of},
-             reading=ONE_LETTER, correction=lambda: _rate_24(own_indicators),
+             reading=ONE_LETTER, glyph="24.mended", correction=lambda: _rate_24(own_indicators),
              corrected_statement=r"\dot z_2 = \sum_{i=1}^{l}\left(m_i\chi_{mi}F - a_i\chi_{ai} - \dots + "
                                  r"\bar d_i\chi_{\bar di}\right) - \dot\alpha_1",
-             note="Every parameter has its own indicator, as (9), (10), (27)-(31) and (39) print it.")
+             note="chi_i is nowhere defined. Read as the indicator of each parameter's own, as (9), (10), (27)-(31) and (39) "
+                  "print it, the line holds: write chi_mi, chi_ai and so on.")
 def speed_error_rate() -> Goal:
     """Two seconds onto the slope: chi_m = 1, chi_vartheta = 1/2."""
     return ramp_time(_rate_24(one_indicator))
@@ -96,7 +97,7 @@ def speed_error_rate() -> Goal:
 @paper.claim("24.mended", "Rate of z_2, each parameter with its own indicator", "identity",
              r"\dot z_2 = \sum_{i=1}^{l}\left(m_i\chi_{mi}F - a_i\chi_{ai} - b_i\chi_{bi}x_2 - \dots + "
              r"\bar d_i\chi_{\bar di}\right) - \dot\alpha_1", "proved", premises=("8.modes",), origin="ours", mends="24",
-             scope=ALL_MODES)
+             glyph="24", scope=ALL_MODES)
 def speed_error_rate_mended() -> Goal:
     """D(x_2 - alpha_1) along (7), (8) with (9), (10)."""
     return _rate_24(own_indicators)
@@ -249,7 +250,7 @@ RATE_33 = (r"\dot{V}_2 = -r_1z_1^2(t) + z_2(t)\left(\eta(t) + \sum_{i=1}^{l}(m_i
 
 @paper.claim("33", "The display before (32): Rate of V_2 under the laws (27)-(31)", "identity", RATE_33 % ("i", r"\chi_i(t)", "i"), "refuted",
              premises=("24.mended",), rests_on=("26", "27", "28", "29", "30", "31"), severity="cosmetic", scope=EVERY_MODE,
-             where={"V_2": V, r"\chi_i(t)": chi_mi}, reading=ONE_LETTER,
+             where={"V_2": V, r"\chi_i(t)": chi_mi}, reading=ONE_LETTER, glyph="33.mended",
              correction=lambda: _rate_33(own=True), corrected_statement=RATE_33 % ("mi", "", r"\bar{d}i"),
              note="zeta_i of (33) holds the indicators already, and the disturbance has its own; (34) has them right.")
 def v2_rate_laws() -> Goal:
@@ -259,7 +260,7 @@ def v2_rate_laws() -> Goal:
 
 @paper.claim("33.mended", "Rate of V_2 under the laws (27)-(31), each parameter with its own indicator", "identity",
              RATE_33 % ("mi", "", r"\bar{d}i"), "proved", premises=("24.mended", "27", "28", "29", "30", "31"),
-             origin="ours", mends="33", scope=EVERY_MODE, where={"V_2": V})
+             origin="ours", mends="33", glyph="33", scope=EVERY_MODE, where={"V_2": V})
 def v2_rate_laws_mended() -> Goal:
     """D(V_2) along the plant with F free."""
     return _rate_33(own=True)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import sympy as sp
 
-from workbench.proof.claim import D, Goal, at_least, at_most, equal
+from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal
 
 from ..active_mode import REGRESSORS, alpha_1, chi_d, chis, d, hats, m, nu_healthy, rho_hat, speed_error, trues, wanted
 from ..error_dynamics import ACTIVE_MODE, healthy_loop
 from ..lyapunov import V_healthy, square_integrable, tracks
 from ..paper import paper
-from ..plant import r_1, r_2, x_1, x_2, x_m, xdot_m, z_1, z_2
+from ..plant import r_1, r_2, x_1, x_2, x_m, xddot_m, xdot_m, z_1, z_2
 
 theta_, rate_one, rate_two, most = sp.symbols("theta Vdot_1 Vdot_2 most", real=True)
 
@@ -80,14 +80,33 @@ paper.axiom("barbalat", "A square integrable error with a bounded rate tends to 
              r"(7)-(8), guarantees that all the closed-loop signals are bounded and the tracking error } e(t) = x_1(t) - "
              r"x_m(t) \text{ satisfies } \lim_{t\to\infty} e(t) = 0", "proved", match="words", severity="result",
              premises=("38", "25", "25.switch", "filippov", "theorem1.bounded", "theorem1.rate", "barbalat"),
-             rests_on=("36", "38", "theorem1.integral", "theorem1.rate"), scope=ACTIVE_MODE,
+             rests_on=("36.glyph", "38", "theorem1.integral", "theorem1.rate", "theorem1.alpha"), scope=ACTIVE_MODE,
              reading="Shown for all times: V_2, and so every estimation error, z_1, z_2 and the integral of r_1 z_1^2 + "
                      "r_2 z_2^2, are at most what V_2(0) allows. The limit is Barbalat's lemma, with the bounded rate of "
-                     "theorem1.rate. (36) is read as in 36.glyph; the desired curve, its speed and its acceleration are "
-                     "bounded, which the paper supposes silently.")
+                     "theorem1.rate. (36) is read as in 36.glyph.",
+             note="That all signals are bounded, F among them, takes a desired curve with bounded x_m, x_m' and x_m'', which "
+                  "no assumption of the paper says, see theorem1.alpha.")
 def theorem_1() -> Goal:
     """From what (38) and (25) show of V_2 alone."""
     return tracks(V_healthy, paper.shown("38"), paper.shown("25"))
+
+
+@paper.claim("theorem1.alpha", "The rate of alpha_1 is bounded", "implication",
+             r"\text{From (21), } \dot{\alpha}(t) \text{ is bounded, due to the bounded } \dot{z}_1(t) \text{ and } \dot{x}_m(t)",
+             "gap", match="words", rests_on=(), correction=lambda: _alpha_rate_bounded(at_most(xddot_m**2, v_most**2)),
+             reading="alpha_1' = -r_1 z_1' + x_m'' by (21); a bound of z_1' and x_m' would have to bound it.",
+             corrected_statement=r"|\dot z_1| \le B,\ |\ddot x_m| \le v_{\max} \Rightarrow \dot\alpha_1^2 \le 2r_1^2B^2 + 2v_{\max}^2",
+             note="It takes a bounded x_m'', which does not follow from a bounded x_m': x_m' = sin(t^2) has the rate "
+                  "2 t cos(t^2), and F follows it. With bounded x_m, x_m' and x_m'', as any train's are, Theorem 1 stands.")
+def alpha_rate_bounded() -> Goal:
+    """From a bounded z_1' and x_m' alone."""
+    return _alpha_rate_bounded()
+
+
+def _alpha_rate_bounded(*given: Relation) -> Goal:
+    rate = sp.Symbol("zdot_1", real=True)
+    shown = at_most((-r_1 * rate + xddot_m) ** 2, 2 * r_1**2 * B**2 + 2 * v_most**2)
+    return Goal((shown,), (at_most(rate**2, B**2), at_most(xdot_m**2, v_most**2), *given))
 
 
 @paper.claim("theorem1.z2", "z_2 in closed loop, and its bounded rate", "implication",

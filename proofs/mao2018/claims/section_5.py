@@ -75,7 +75,7 @@ k_one, k_other, n, n_bar = sp.symbols("k_nu k_nu_other n n_bar", positive=True)
 
 @paper.claim("48.pattern", "The controller can be computed from what is known", "implication",
              r"\sum_{j=1}^{n-k_{\nu}}\nu_{sj}(t)\ \text{of (48) is known to the controller}",
-             "gap", premises=("A1",), origin="implied", severity="data",
+             "gap", premises=("A1",), origin="implied", severity="step",
              reading="Two failure patterns that (A1) allows, with one bound delta_j^0 for all motors, must give the same "
                      "sum of nu_sj, since which of them it is cannot be known.",
              note="(48) sums nu_sj up to n - k_nu, the unknown number of failed motors. Mended without loss: the bound of "
@@ -121,7 +121,7 @@ def disturbance_outweighed_again() -> Goal:
 
 @paper.claim("51.a", "The terms that (49), (50) compensate", "identity",
              r"\dot V_2 + r_1z_1^2 + r_2z_2^2 = \sum_i" + TERMS_51 % (r"\sum_{j=1}^{n-k_\nu}", " +", r"\bar d", r"\right)"),
-             "refuted", premises=("17",), rests_on=("41", "44", "37.failures", "48"), severity="cosmetic",
+             "refuted", premises=("17",), rests_on=("48",), severity="cosmetic",
              scope="one active mode, n - k_nu = 2",
              reading="The equation of (51), decay taken to the left; of V_2' only the terms of delta_j, d_i and what "
                      "compensates them, for two failed motors.",
@@ -151,7 +151,7 @@ SUMS = "delta is the sum over the failed motors of delta_j, delta_0 that of delt
 
 
 @paper.claim("51", "V_2 does not increase with unparameterizable failures: the whole argument", "inequality", BOUND,
-             "refuted", premises=("17", "39", "25.idle"), rests_on=("51.a", "49", "50"), scope=ALL_SIGNALS,
+             "refuted", premises=("17", "39", "25.idle"), rests_on=("44", "51.a", "49", "50"), scope=ALL_SIGNALS,
              where={"V_2": V_40}, closed_loop=True,
              note="The last line of (51), for |delta_j| <= delta_j^0, k_nu >= rho_knu^0 and what (45) asks. False for the "
                   "reasons of (45) alone; mended as 51.mended. " + SUMS)
@@ -199,7 +199,7 @@ def rate_52_at_most() -> Goal:
 @paper.claim("theorem3", "Theorem 3: the position error tends to zero with unparameterizable failures", "limit",
              THEOREM % ("(48), with the signals (32)-(33) and (49)-(50), and adaptive scheme (27)-(31), (37), (41), and (44)",
                         "(7)-(8) under actuator failures (16)", "the "), "refuted",
-             match="words", severity="result", closed_loop=True, rests_on=("52", "49", "50"), scope=ALL_SIGNALS,
+             match="words", severity="result", closed_loop=True, rests_on=("52", "48.pattern", "49", "50"), scope=ALL_SIGNALS,
              reading=SQUARE_IN_TIME + "Decided as z_1^2 <= 1/4 from some time on.",
              note="False as printed: " + STEADY_STATE_ERROR + "The bound delta_j^0 is 1, delta_j is 0. Mended as (45) is, (51) "
                   "holds, and Theorem 3 with it.")
@@ -212,7 +212,8 @@ def theorem_3() -> Goal:
 
 
 @paper.claim("theorem3.mended", "Theorem 3 with (44) and the weights of V_2 mended", "implication",
-             r"\text{Theorem 3 with } \dot{\hat\rho}_{k\nu} = +\Gamma_{k\nu}z_2\hat\xi^T\varpi" + ONE_MASS, "proved",
+             r"\text{Theorem 3 with } \dot{\hat\rho}_{k\nu} = +\Gamma_{k\nu}z_2\hat\xi^T\varpi\text{, the sum in (48) over the}\ "
+             r"\bar n\ \text{motors with the largest}\ \delta_j^0" + ONE_MASS, "proved",
              origin="ours", mends="theorem3", severity="result", scope=ALL_SIGNALS, reading=TRACKS, note=REPAIR,
              premises=("51.mended", "40.mended", "46.jump", "25.switch", "filippov", "theorem1.rate", "barbalat"))
 def theorem_3_mended() -> Goal:

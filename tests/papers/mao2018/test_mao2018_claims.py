@@ -124,5 +124,17 @@ def test_the_printed_loop_has_an_exact_motion_that_breaks_the_theorem(claims, th
 
 
 def test_whole_theorems_are_proved_where_they_stand(claims):
-    for theorem in ("theorem1", "theorem2.mended", "theorem3.mended", "theorem4.mended"):
+    for theorem in ("theorem1", "theorem2.mended", "theorem3.mended", "theorem4.mended", "theorem5.mended"):
         assert decide(claims[theorem]).verdict == "proved"
+
+
+def test_a_weight_of_lambda_tilde_makes_its_estimate_drop_out_whatever_its_sign():
+    """The terms of lambda_hat in the rate of V_2 by (54) with a plus and (56), at random instants."""
+    r = random.Random(11)
+    for _ in range(200):
+        m, healthy, bound = r.uniform(0.5, 3), r.uniform(1, 16), r.uniform(1, 3)
+        z_2, estimate = r.uniform(-2, 2), r.uniform(-5, 5)
+        rho = m * healthy * r.uniform(0.2, 1)
+        weight = m * healthy / rho
+        left = m * healthy * z_2 * (-estimate / rho * ((z_2 > 0) - (z_2 < 0))) - weight * (bound - estimate) * abs(z_2)
+        assert left == pytest.approx(-weight * bound * abs(z_2)) and left <= -bound * abs(z_2) + 1e-9
