@@ -17,11 +17,18 @@ from workbench.files.regular import contents, sha256_of
 from workbench.files.writing import as_bytes
 from workbench.proof import checker, names
 from workbench.proof.latex import letters
-from workbench.report import certificate_latex, counterexample, kept, number_style, side_values
+from workbench.report import (
+    certificate_latex,
+    counterexample,
+    number_style,
+    premises_at_counterexample,
+    side_values,
+)
 from workbench.report.counterexample import Counterexample, counterexample_of
-from workbench.report.kept import Other, kept_and_broken
+from workbench.report.premises_at_counterexample import Other, kept_and_broken
 
-READERS = (checker, names, letters, certificate_latex, number_style, side_values, counterexample, kept)
+READERS = (checker, names, letters, certificate_latex, number_style, side_values, counterexample,
+           premises_at_counterexample)
 READERS_KEPT = 4
 
 

@@ -13,10 +13,10 @@ from workbench.proof.premises import holds_in_other_reading
 from workbench.proof.verdict import FAILED, Decision, FateWord, Origin, Verdict
 from workbench.report.counterexample import Counterexample
 from workbench.report.counterexample_cache import cached_counterexample
+from workbench.report.failing_lines import Way, ways
+from workbench.report.hypotheses import Need, needs_of
 from workbench.report.letters import letters_of
-from workbench.report.needs import Need, needs_of
 from workbench.report.number_style import alike, upright
-from workbench.report.ways import Way, ways
 
 # What a finding is, the gravest first: a headline statement that falls, that stands only with corrections, that stays
 # open; a line that fails and that others rest on; one that does not follow; one that fails and that nothing rests on;

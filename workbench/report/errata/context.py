@@ -10,7 +10,7 @@ from workbench.proof.verdict import Decision
 from workbench.report.errata.blocks import Block, Formula, Paragraph
 from workbench.report.errata.causes import Cause, causes_of, correction_numbers
 from workbench.report.errata.chain import resting_lines
-from workbench.report.errata.needed import needed
+from workbench.report.errata.hypotheses import needed
 from workbench.report.finding import Finding
 from workbench.report.finding_sentences import IMPLIED, condition_sentence
 from workbench.report.letters import Letters, letters_of

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from workbench.report.dots import dotted, dotted_text
 from workbench.report.errata.blocks import Block, Formula, Items, Paragraph
+from workbench.report.hypotheses import Need
 from workbench.report.letters import Letters
-from workbench.report.needs import Need
 from workbench.report.worded import show
 
 

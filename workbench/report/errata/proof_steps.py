@@ -12,7 +12,7 @@ from workbench.proof.wording import listed
 from workbench.report.certificate_latex import expression_latex, relation_latex
 from workbench.report.errata.blocks import Item
 from workbench.report.errata.proof_terms import Known, Sum, margin_of, sum_of
-from workbench.report.needs import signs
+from workbench.report.hypotheses import signs
 
 CASES = {"nonnegative": (">=", r"\ge 0"), "nonpositive": (">=", r"\le 0"), "negative": (">", "< 0"),
          "positive": (">", "> 0"), "zero": ("==", "= 0")}

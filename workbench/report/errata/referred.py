@@ -13,8 +13,8 @@ from workbench.report.errata.names import lines_named, name_of_line
 from workbench.report.errata.proof_steps import proof_steps
 from workbench.report.finding import Finding
 from workbench.report.finding_sentences import IMPLIED, PRINTED, breaks_at
+from workbench.report.hypotheses import conditions_of, motion_of
 from workbench.report.letters import letters_of
-from workbench.report.needs import conditions_of, motion_of
 
 SHORT = 6  # steps up to which a proof is told here
 LABELS = {"printed": PRINTED, "implied": IMPLIED, "ours": "Statement"}

@@ -9,7 +9,7 @@ from workbench.proof.fate import judged
 from workbench.proof.verdict import Decision, Stated
 from workbench.report.finding import findings
 from workbench.report.finding_sentences import consequence_sentence
-from workbench.report.kept import Other, kept_and_broken
+from workbench.report.premises_at_counterexample import Other, kept_and_broken
 
 
 def refuted(show, point, assume=(), flow=None, **more):

@@ -9,7 +9,7 @@ from workbench.proof.places import place_of
 from workbench.proof.wording import listed
 from workbench.report.errata.blocks import Block, Formula, Paragraph
 from workbench.report.errata.conditions import ALONG, UNDER, listed_conditions
-from workbench.report.needs import Need
+from workbench.report.hypotheses import Need
 from workbench.report.worded import worded
 
 _SIGN = re.compile(r"[^=<>]* (?:>|\\ge|\\ne) 0")

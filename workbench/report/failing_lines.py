@@ -9,7 +9,7 @@ from workbench.proof.places import place_of
 from workbench.proof.premises import holds_in_other_reading
 from workbench.proof.verdict import FAILED, Decision
 from workbench.report.counterexample_cache import cached_kept
-from workbench.report.kept import Other
+from workbench.report.premises_at_counterexample import Other
 
 
 @dataclass(frozen=True)
