@@ -23,7 +23,7 @@ def read_and_written(numbers):
             for k in range(4):
                 total += cube[i, j, k] * (1 + i + 10 * j + 100 * k)
     row[3], cube[1, 2, 3], whole[1, 0] = -1.5, -2.5, -7
-    return total, row.shape, table.shape, cube.shape, whole.shape
+    return total, row.shape, table.shape, cube.shape, whole.shape, cube.strides
 
 
 def test_views_are_the_parts_that_numpy_gives():
@@ -35,7 +35,7 @@ def test_views_are_the_parts_that_numpy_gives():
     wanted[35:41].view(np.int64).reshape(2, 3)[1, 0] = -7
     found, *shapes = read_and_written(numbers)
     assert found == pytest.approx(total, rel=1e-12)
-    assert shapes == [(4,), (3, 2), (2, 3, 4), (2, 3)]
+    assert shapes == [(4,), (3, 2), (2, 3, 4), (2, 3), cube.strides]
     assert numbers.tobytes() == wanted.tobytes()
 
 
