@@ -24,10 +24,10 @@ def test_the_start_of_the_readme_says_what_is_found():
     start = (ROOT / "README.md").read_text(encoding="utf-8").partition("## Start here")[2].partition("\n## ")[0]
     fate, _, finding, _, counts = start.split("```")[3].strip().splitlines()
     errata = (DOCS / "errata/yang2021/errata.md").read_text(encoding="utf-8")
-    fate = fate.replace("μ", r"$\mu$")
+    fate = fate.replace("l/μ", r"$l/\mu$")
     assert re.search(rf"^- {re.escape(fate)} See correction \d+\b.*\.$", errata, re.MULTILINE)
     for plain, formula in (("e₁ = 0.2075, k = 0.21", "$e_{1} = 0.2075$, $k = 0.21$"),
-                           ("0.2075 ≤ 0.2.", r"$0.2075 \le 0.2$."),
+                           ("is 0.2075 and the right side 0.2.", "is $0.2075$ and the right side $0.2$."),
                            ("|e₁| ≤ 0.2", r"$\left|e_{1}\right| \le 0.2$")):
         assert plain in finding
         finding = finding.replace(plain, formula)
