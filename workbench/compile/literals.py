@@ -28,6 +28,7 @@ def require_short(exprs: Iterable[sp.Expr]) -> None:
                 raise CompileError("a whole number, or one in a fraction, is beyond 64 bits: state it as a float")
             if isinstance(part, sp.Float) and (not math.isfinite(float(part)) or (part != 0) != (float(part) != 0)):
                 raise CompileError(f"{str(part)[:80]} is a number that no float holds: correct it")
+        for part in found:  # whose exponents are numbers that it holds
             if (isinstance(part, sp.Pow) and part.exp.is_number and abs(part.exp) > LARGEST_POWER
                     and not part.base.is_number):
                 raise CompileError(f"{str(part)[:80]} has an exponent beyond {LARGEST_POWER}: correct it")
