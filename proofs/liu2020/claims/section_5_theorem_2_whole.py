@@ -31,7 +31,7 @@ from .section_5_theorem_2_eq_55_to_60 import bound_tracking, mu_2_stated
                   "hypotheses.")
 def theorem_2() -> Goal:
     """theta_tilde = 2 exp(t) - a constant along the printed loop."""
-    return tracking_motion(at_most(theta_tilde, t))
+    return tracking_motion(at_most(theta_tilde, t), width=1)
 
 
 mu_tracking = positive(mu_2_stated - mu_1_stated)
