@@ -37,24 +37,37 @@ stated_gains = {s: rational(scenario.controllers["rbfnn_pocrac"].parameters[str(
                 for s in (alpha, beta, chi, k, *lambdas, *sigmas)}
 
 
+def section_grades() -> list[Fraction]:
+    """Slope (per mille) of the sections of Table 1 in their order, exact."""
+    return [rational(_grade_at(border)) for border in _borders()]
+
+
+def _borders() -> list[float]:
+    return sorted({s.start_m for s in (*scenario.track.grade, *scenario.track.curve)})
+
+
+def _grade_at(position: float) -> float:
+    return next(s.grade_permille for s in scenario.track.grade if s.start_m <= position < s.end_m)
+
+
 def section_resistances() -> list[Fraction]:
     """Additional resistance (N per kg) of the sections of Table 1 in their order, exact."""
     def at(position: float) -> Fraction:
-        grade = next(s.grade_permille for s in scenario.track.grade if s.start_m <= position < s.end_m)
+        grade = _grade_at(position)
         radius = next(s.radius_m for s in scenario.track.curve if s.start_m <= position < s.end_m)
         value = additional_specific_resistance().subs({
             grade_permille: sp.Rational(str(grade)), curvature_per_m: 1 / sp.Rational(str(radius)),
             tunnel_n_per_kn: 0})
         return Fraction(int(value.p), int(value.q))
 
-    borders = sorted({s.start_m for s in (*scenario.track.grade, *scenario.track.curve)})
-    return [at(border) for border in borders]
+    return [at(border) for border in _borders()]
 
 
-def largest_jump() -> tuple[Fraction, Fraction]:
-    """Resistance just before and after the border with the largest jump in Table 1."""
-    return max(pairwise(section_resistances()), key=lambda pair: abs(pair[0] - pair[1]))
+def largest_jump() -> tuple[tuple[Fraction, Fraction], tuple[Fraction, Fraction]]:
+    """Resistance and slope just before and after the border with the largest jump of the resistance in Table 1."""
+    return max(pairwise(zip(section_resistances(), section_grades(), strict=True)),
+               key=lambda pair: abs(pair[0][0] - pair[1][0]))
 
 
-before_jump, after_jump = largest_jump()
+(before_jump, grade_before), (after_jump, grade_after) = largest_jump()
 least_error = abs(after_jump - before_jump) / 2  # (7.error)

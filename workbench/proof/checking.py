@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from workbench.proof.checker import THEOREMS, File, Row, check_file, check_folder
+from workbench.tasks.executor import named
 from workbench.tasks.handing_out import results_of
 from workbench.tasks.processes import start_method
 
@@ -32,7 +33,7 @@ def check_all(folder: Path, papers: Mapping[Path, Path], workers: int,
         tasks: list[Part] = [("files", place) for place in groups] + [("claims", place) for place in claims]
         tasks.sort(key=lambda part: -len(groups.get(part[1], ())))
         several = workers > 1 and len(files) >= WORTH_PROCESSES
-        if several:
+        if several and named() is None:
             start_method(BINDING)
         found.update(results_of(_part, {"files": groups, "claims": claims}, tasks, workers if several else 1,
                                 lambda done, *_: on_progress(done, len(tasks))))

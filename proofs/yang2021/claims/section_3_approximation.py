@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 import sympy as sp
 
 from workbench.model.law import over_neurons
 from workbench.proof.claim import Goal, at_most, equal
+from workbench.trains.resistance import STANDARD_GRAVITY_MPS2
 from workbench.trains.train import f
 
 from ..error_dynamics import EVERY_NETWORK, STATED_F_STAR, eps_star, epsilon, f_star, f_true, h
 from ..lyapunov import W_star_square
 from ..paper import paper
-from ..stated_values import section_resistances
+from ..stated_values import grade_after, grade_before, rational, section_resistances
 
 
 @paper.claim("A2", "Assumption 2: f is bounded on the line of Table 1", "condition",
@@ -44,7 +43,7 @@ paper.axiom("8", "The best weights exist",
 @paper.claim("7.continuous", "The text before (7): the network approximates f with any precision", "condition",
              r"\text{RBFNN can approximate the unknown nonlinear additional resistance and interference function with any precision in the "
              r"compact working domain}", "violated",
-             at={slope_before: Fraction(5, 2), slope_after: Fraction(-3), gravity: Fraction(980665, 100000)}, match="words",
+             at={slope_before: grade_before, slope_after: grade_after, gravity: rational(STANDARD_GRAVITY_MPS2)}, match="words",
              reading="What continuous functions approximate with any precision is continuous: f does not step at 29,900 m, where by Table 1 the slope goes from 2.5 to "
                      "-3 per mille and the curve stays as it is. The step is that of the weight's part along the track, with 9.80665 m/s^2, which the paper does not print.",
              note="f steps by 9.81 times 5.5/1000, some 0.054 m/s^2, so that eps* is at least 0.027 m/s^2 whatever the network is (7.error). What falls is 'any precision' and that eps* "

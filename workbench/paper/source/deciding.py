@@ -10,6 +10,7 @@ from itertools import pairwise
 from workbench.paper.source.conventions import shows_rate
 from workbench.paper.source.document import Source
 from workbench.paper.source.letters import defined_in_text, said_of, values_and_rates
+from workbench.paper.source.narrowing import words_of
 from workbench.paper.source.passages import Sentence, Word
 from workbench.paper.source.row import Row
 from workbench.paper.source.shown import Standing
@@ -21,8 +22,11 @@ from workbench.proof.latex.tree import Letter, Number, Product, Quotient, Terms,
 
 _TYPED = re.compile(r"[A-Z]?[.-]?\d+(?:\.\d+)*[a-z]?")  # a number by which a text refers without a label
 # What a number is of, where one says it.
-_KINDS = {one + plural for one in ("assumption", "lemma", "theorem", "proposition", "corollary", "definition", "table",
-                                   "condition", "propertie", "hypothese", "figure", "case") for plural in ("", "s")}
+_KINDS = words_of("""
+    assumption assumptions lemma lemmas theorem theorems proposition propositions corollary corollaries definition
+    definitions table tables condition conditions property properties hypothesis hypotheses figure figures case cases
+""")
+_STEM = 5  # letters that such a word shares with its plural
 
 
 def standings(made: list[tuple[Row, RowEntry]], found: Source, facts: str) -> dict[str, Standing]:
@@ -75,11 +79,10 @@ def unresolved(sentence: Sentence, known: Collection[tuple[str, str]]) -> Iterat
     for before, word in pairwise((Word("mark", "", 0, 0), *sentence.words)):
         for name in word.text.split(",") if word.kind == "reference" else ():
             plain = name.strip().strip("()")
-            what = before.text.rstrip("s")
             if _TYPED.fullmatch(plain) is None:
                 continue  # a label, which LaTeX itself looks up
             if plain not in names or (before.text in _KINDS and not any(
-                    one == plain and kind.startswith(what) for one, kind in known)):
+                    one == plain and before.text.startswith(kind[:_STEM]) for one, kind in known)):
                 yield f"{before.text} {name.strip()}".strip()
 
 
