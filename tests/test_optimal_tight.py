@@ -3,6 +3,7 @@
 from dataclasses import replace
 from types import SimpleNamespace
 
+import clarabel
 import numpy as np
 import pytest
 
@@ -27,6 +28,7 @@ from workbench.optimal.adjoint import (
 )
 from workbench.optimal.best_forms import best_forms
 from workbench.optimal.bound import lower_bound
+from workbench.optimal.cone_program import ConeProgram
 from workbench.optimal.course import Course
 from workbench.optimal.grid import graded_grid, kept_borders
 from workbench.optimal.planning import SPEED_ERROR_MPS, _too_slow
@@ -192,4 +194,17 @@ def test_brakes_beyond_the_power_that_returns_are_no_reason_for_a_finer_mesh(wav
 
 def test_a_mesh_is_as_fine_as_the_gap_asks_for():
     assert growth(np.inf, 1e-3) == GROWTH and growth(1.1e-3, 1e-3) == LEAST_GROWTH
-    assert growth(AIM * 4e-3, 1e-3) == pytest.approx(1.0) and growth(1.0, 1e-3) == MOST_GROWTH
+    assert growth(AIM * 8e-3, 1e-3) == pytest.approx(1.0) and growth(1.0, 1e-3) == MOST_GROWTH
+
+
+def test_what_has_no_solution_is_found_out_once(monkeypatch):
+    """x <= -1 where x >= 1: multipliers show it, and more careful solving would show the same."""
+    solver, calls = clarabel.DefaultSolver, []
+    monkeypatch.setattr(clarabel, "DefaultSolver", lambda *program: calls.append(program) or solver(*program))
+    program = ConeProgram(1)
+    x = program.variables(0, 1)
+    program.require_at_most(x + 1.0)
+    program.require_at_most(-1.0 * x + 1.0)
+    with pytest.raises(NoPlanError, match="PrimalInfeasible"):
+        program.solve(np.ones(1), "a program without solution")
+    assert len(calls) == 1

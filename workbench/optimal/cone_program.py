@@ -166,6 +166,8 @@ class ConeProgram:
                 return found
             almost = found if status == "AlmostSolved" else almost
             trouble = f"clarabel says '{status}' of {what}: allow more time or other intervals"
+            if status == "PrimalInfeasible":  # shown by multipliers that clarabel has checked; more care shows the same
+                break
         # An inaccurate solution may serve: nothing that follows takes the solver's word for it.
         if almost is None:
             raise NoPlanError(trouble)

@@ -138,18 +138,18 @@ def find_timed_reference(vehicle: Vehicle, course: Course, timetable: Timetable,
     best = _Found(None if isinstance(run, Miss) else run,
                   lower_bound(vehicle, course, nothing, timetable, start_mps, end_mps), nothing, 0.0, FASTEST)
     grid = graded_grid(course, intervals or INTERVALS + STOP_INTERVALS * len(course.stops_m))
-    rounds, known = 1 if intervals else ROUNDS, None
+    rounds, known, enough = 1 if intervals else ROUNDS, None, 0.0 if intervals else GAP_WANTED
     if like is not None and like.planned is not None:
         known = _known(asked, course, like, like.planned)
         if known is not None:
-            grid, rounds = known.plan.grid, 1
+            grid, rounds, enough = known.plan.grid, 1, 0.0
         elif intervals is None and len(like.planned.plan.force_n) > REFINED * len(grid.limit_mps):
-            grid = grid_near(course, like.planned.plan.grid.position_m)
+            grid, enough = grid_near(course, like.planned.plan.grid.position_m), GAP_OF_CONES
     if solver != "nlp":
-        best = _rounds(asked, cone_plan, grid, best, rounds, known)
+        best = _rounds(asked, cone_plan, grid, best, rounds, known, enough)
     # Where the cones have no plan on a mesh the nonlinear program, which has all of their limits, has none either.
     if solver == "nlp" or (solver == "auto" and best.gap > GAP_OF_CONES and not best.tight):
-        best = _rounds(asked, nonlinear_plan, grid, best, 1, known if solver == "nlp" else None)
+        best = _rounds(asked, nonlinear_plan, grid, best, 1, known if solver == "nlp" else None, 0.0)
     if best.run is None:
         raise InfeasibleRunError(not_found(timetable, best.miss))
     profile, simulated = best.run.profile, check(vehicle, best.run.profile)
@@ -224,15 +224,18 @@ def _gap(energy: float, bound: float) -> float:
 
 
 def _rounds(asked: Asked, planner: Planner, grid: Grid, best: _Found, rounds: int,
-            known: Planned | None = None) -> _Found:
-    """The best after planning on finer and finer meshes, until the gap is small or finer ones do not help."""
+            known: Planned | None, first_enough: float) -> _Found:
+    """The best after planning on finer and finer meshes, until the gap is small or finer ones do not help.
+
+    first_enough: what gap is small on the mesh given; none where the run of least energy is asked for all the same.
+    """
     vehicle, course = asked.vehicle, grid.course
     number = failures = 0
     while number < rounds:
         before = best.gap
-        enough = GAP_OF_CONES if best.tight or number else GAP_WANTED
+        enough = GAP_OF_CONES if rounds > 1 and (best.tight or number) else first_enough
         found = planned(asked, planner, grid, best.run.profile if best.run else asked.quickest, GAP_OF_CONES,
-                        0.0 if rounds == 1 else enough, is_last=number == rounds - 1, known=known)
+                        enough, is_last=number == rounds - 1, known=known)
         if found is None:
             failures += 1
             if best.solver != FASTEST or failures == FAILURES or rounds == 1:

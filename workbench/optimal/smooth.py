@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from workbench.errors import InputError
 from workbench.optimal.course import Array, Course
 from workbench.optimal.envelope import InfeasibleRunError
-from workbench.optimal.force_reserve import Reserve, force_samples, more_reserves, with_reserves
+from workbench.optimal.force_reserve import ForceSamples, Reserve, force_samples, more_reserves, with_reserves
 from workbench.optimal.planned_ahead import planned_ahead, waits
 from workbench.optimal.planning import PARTS
 from workbench.optimal.profile import Profile
@@ -162,12 +162,13 @@ def _within_limits(request: _Request) -> SmoothReference:
             least = trouble.least_time_s
             raise InfeasibleRunError(f"{trouble} (with what smoothing must keep back of traction and brakes, "
                                      f"{_shares(reserves)})", least) from None
-        found = _judged(vehicle, course, run, optimal, window_s)
+        samples = force_samples(vehicle, course, run)
+        found = _judged(vehicle, course, run, samples, optimal, window_s)
         first = found.energy_j if not number else first
         found = replace(found, unreserved_energy_j=first, usable=_least_shares(reserves))
         if best is None or found.force_excess < best.force_excess:
             best = found
-        more = more_reserves(force_samples(vehicle, course, run), reserves, window_s) if found.force_excess > 0 else ()
+        more = more_reserves(samples, reserves, window_s) if found.force_excess > 0 else ()
         if not more:
             break
         reserves = more
@@ -269,9 +270,9 @@ def _apart(points: Array, borders: Array) -> Array:
     return inside[np.minimum(inside - borders[after - 1], borders[after] - inside) > SLIVER_M]
 
 
-def _judged(vehicle: Vehicle, course: Course, run: SmoothRun, optimal: Reference, window_s: float) -> SmoothReference:
-    """Energy and excesses by fine sampling of every piece."""
-    found = force_samples(vehicle, course, run)
+def _judged(vehicle: Vehicle, course: Course, run: SmoothRun, found: ForceSamples, optimal: Reference,
+            window_s: float) -> SmoothReference:
+    """Energy and excesses by fine samples of every piece."""
     s, v, force = found.position_m, found.speed_mps, found.force_n
     limit = course.limit_mps[np.clip(np.searchsorted(course.position_m, s) - 1, 0, len(course.limit_mps) - 1)]
     power = v * np.where(force > 0, force / vehicle.traction_efficiency,
