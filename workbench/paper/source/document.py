@@ -7,19 +7,31 @@ from dataclasses import dataclass
 
 from workbench.files.regular import LARGEST_TEXT, size_words
 from workbench.paper.source.letters import values_and_rates
-from workbench.paper.source.lines import LABEL, TAG, WITHOUT_NUMBER, chained, cleaned, goes_on, lines_of, system_lines
+from workbench.paper.source.lines import (
+    DISPLAYS,
+    LABEL,
+    TAG,
+    WITHOUT_NUMBER,
+    chained,
+    cleaned,
+    goes_on,
+    lines_of,
+    references,
+    system_lines,
+    without_displays,
+    without_marks,
+)
 from workbench.paper.source.macros import SourceError, decided, expanded, group, optional, without_comments
 from workbench.paper.source.markdown import with_latex_headings
 from workbench.paper.source.passages import Display, passages
 from workbench.paper.source.pieces import require_plain
-from workbench.paper.source.row import Row, resolve
+from workbench.paper.source.row import Row, resolve, row_id
 from workbench.paper.source.shown import Shown
+from workbench.paper.source.spread import spread
 from workbench.paper.source.standing import Text
 from workbench.proof.latex.rows import is_assumption
 from workbench.proof.latex.sides import letters_of_text
 
-DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "alignat", "IEEEeqnarray", "dmath",
-            "displaymath")
 WHOLE = ("equation", "multline", "dmath", "displaymath")  # one formula, however many lines it has
 UNNUMBERED = "display1"  # the id of the first formula without a number
 WITH_ARGUMENT = ("alignat", "IEEEeqnarray")
@@ -35,7 +47,6 @@ _PARENTHESIS = re.compile(r"(?<!\\)\\[()]")  # another way to type a dollar sign
 _NEWTHEOREM = re.compile(r"\\newtheorem(\*?)\s*\{([^{}]*)\}\s*(?:\[([^\]]*)\])?\s*\{([^{}]*)\}\s*(?:\[([^\]]*)\])?")
 _WITHIN = re.compile(r"\\numberwithin\s*\{equation\}\s*\{section\}")
 _REMARKS = re.compile("remark|example|note", re.IGNORECASE)
-_REFERENCE = re.compile(r"\\(?:eqref|[cC]ref|autoref|ref)\s*\{([^{}]*)\}")
 
 MOST_SHOWN = LARGEST_TEXT // 2  # verdicts are added to what is shown, and the table is read again
 TOO_MUCH = (f"becomes tables of more than {size_words(MOST_SHOWN)}, as where a macro writes itself many times over: "
@@ -59,8 +70,10 @@ def read_source(text: str) -> Source:
     end = body.find(r"\end{document}")
     body = body if end < 0 else body[:end]
     require_plain(body)
+    body, typed = spread(body), body
     reader = _Reader(preamble, body)
     reader.read()
+    _as_typed(reader.rows, preamble, typed, body)
     resolve(reader.rows, reader.group_labels)
     if not reader.rows:
         raise SourceError("the source has no displayed formula, assumption, theorem or remark: give the paper's own "
@@ -69,6 +82,17 @@ def read_source(text: str) -> Source:
     text_of = Text(body, passages(body, reader.displays, (*whats, *PROOFS)), whats,
                    [name for name, what in whats.items() if is_assumption(what)], _formulas(reader))
     return Source(reader.rows, body, text_of)
+
+
+def _as_typed(rows: list[Row], preamble: str, typed: str, read: str) -> None:
+    """Give formulas that are read otherwise than they are typed their printed form back."""
+    if typed == read:
+        return
+    reader = _Reader(preamble, typed)
+    reader.read()
+    for row, own in zip(rows, reader.rows, strict=True):
+        if row.what == "Equation" and row.printed != own.printed:
+            row.line, row.printed = row.line or row.printed, own.printed
 
 
 def _formulas(reader: _Reader) -> dict[int, Shown]:
@@ -208,12 +232,12 @@ class _Reader:
         lines = [text] if name in WHOLE else lines_of(text)
         carried, labels = "", ()
         before = len(self.rows)
-        self.displays.append(Display(*around, ends=re.search(r"\.[\s\\,]*\Z", _without_marks(text)) is not None))
+        self.displays.append(Display(*around, ends=re.search(r"\.[\s\\,]*\Z", without_marks(text)) is not None))
 
         def add(number: str, printed: str, labels: tuple[str, ...], referred: list[str]) -> None:
             last = self.rows[-1] if len(self.rows) > before else None
             chain = chained(last.line or last.printed, printed) if last else ""
-            self._add(Row(_id(number) if number else UNNUMBERED, "Equation", number, printed, labels, within=within,
+            self._add(Row(row_id(number) if number else UNNUMBERED, "Equation", number, printed, labels, within=within,
                           line=chain, referred=self.pending + referred, display=len(self.displays) - 1,
                           aside=bool(within) or self.proving, remark=self.remarking))
             self.pending = []
@@ -229,7 +253,7 @@ class _Reader:
             if tag is None and (WITHOUT_NUMBER.search(line) or not (numbered or "IEEEyesnumber" in line)):
                 carried = printed
                 continue
-            add(tag[1].strip() if tag else self._equation_number(), printed, labels, _references(line))
+            add(tag[1].strip() if tag else self._equation_number(), printed, labels, references(line))
             carried, labels = "", ()
         if carried and len(self.rows) > before and goes_on(self.rows[-1].printed, carried):
             self.rows[-1].printed = _joined(self.rows[-1].printed, carried)
@@ -241,8 +265,8 @@ class _Reader:
         title, begin = optional(self.body, at)
         number = self._counted(counter, by_section) if counter and not starred else ""
         text = self.body[begin:close]
-        row = Row(_id(f"{what.lower()}{number}"), what, number, " ".join(LABEL.sub("", text).split()),
-                  tuple(LABEL.findall(_without_displays(text))), title or "", referred=_references(text),
+        row = Row(row_id(f"{what.lower()}{number}"), what, number, " ".join(LABEL.sub("", text).split()),
+                  tuple(LABEL.findall(without_displays(text))), title or "", referred=references(text),
                   span=(begin, close))
         self._add(row)
         self.pending, self.remarking = [], _REMARKS.search(what) is not None
@@ -252,12 +276,12 @@ class _Reader:
 
     def _proof(self, at: int, close: int) -> None:
         named, begin = optional(self.body, at)
-        of = _references(named or "")
+        of = references(named or "")
         owner = next((row for row in self.rows if set(row.labels) & set(of)), None) or next(
             (row for row in reversed(self.rows)
              if row.what not in ("Equation", "Remark") and not is_assumption(row.what)), None)
         if owner is not None:
-            owner.referred += _references(self.body[begin:close])
+            owner.referred += references(self.body[begin:close])
         self.pending, self.proving = [], True
         self._walk(begin, close, "")
         self.pending, self.proving = [], False
@@ -273,23 +297,3 @@ class _Reader:
 
 def _joined(first: str, second: str) -> str:
     return f"{first} {second}".strip()
-
-
-def _without_marks(text: str) -> str:
-    """A display without its labels and numbers, for how its sentence goes on."""
-    return re.sub(r"\\(?:nonumber|notag|IEEEnonumber)(?![A-Za-z])", "", TAG.sub("", LABEL.sub("", text)))
-
-
-def _references(text: str) -> list[str]:
-    return [label.strip() for labels in _REFERENCE.findall(text) for label in labels.split(",")]
-
-
-def _without_displays(text: str) -> str:
-    names = "|".join((*DISPLAYS, "subequations"))
-    return re.sub(rf"\\begin\s*\{{({names})\*?\}}.*?\\end\s*\{{\1\*?\}}", "", text, flags=re.DOTALL)
-
-
-def _id(text: str) -> str:
-    """A number as the name of a claim."""
-    found = re.sub(r"[^A-Za-z0-9.+-]+", "-", text.replace("'", "prime")).strip("-.+") or "row"
-    return found[:60]

@@ -21,15 +21,16 @@ from workbench.paper.source.deciding import (
     standings,
 )
 from workbench.paper.source.document import MOST_SHOWN, TOO_MUCH, Source, read_source
+from workbench.paper.source.inferred import letters_with_what_follows
 from workbench.paper.source.letters import (
     assumed_formulas,
     defined_in_text,
     functions_in,
     on_condition,
-    table_of,
 )
 from workbench.paper.source.lines import ENDS_WITH_RELATION, system_lines
 from workbench.paper.source.macros import SourceError, without_comments
+from workbench.paper.source.reading import MOVE
 from workbench.paper.source.roles import with_roles
 from workbench.paper.source.row import Row
 from workbench.paper.source.shown import Standing
@@ -52,6 +53,7 @@ REMEDY = "name another --directory"
 _CASES = re.compile(r"(?P<before>.*?)(?:\\left)?\s*(?:\\\{|\\lbrace)?\s*\\begin\s*\{cases\}"
                     r"(?P<lines>.*?)\\end\s*\{cases\}(?:\s*\\right\s*\.)?\s*", re.DOTALL)
 _WORDS = re.compile(r"\\(?:text|mbox|textrm)\s*\{\s*(?:if|for|when|otherwise|,)*\s*\}|\\quad|\\qquad", re.IGNORECASE)
+_MOVED = re.compile(rf"(?m)^{MOVE}\$([^$]+)\$")
 PAPER = '''"""{name}: rows of the paper's source; symbols.toml says what its letters are, rows.toml what each row is.
 
 Citation of the paper: author, title, journal, year.
@@ -124,14 +126,14 @@ def rows_and_letters(found: Source) -> tuple[list[RowEntry], dict[str, LetterEnt
     made = [(row, entry) for row in found.rows for entry in entries(row, found)]
     facts = found.said.facts()
     standing = standings(made, found, facts)
-    rows = with_roles(_with_definitions([entry for _, entry in made], facts), standing, {
+    rows = with_roles(_with_text([entry for _, entry in made], facts, found.said.limits()), standing, {
         entry.id: row for row, entry in made if row.what == "Equation"}, functions_in(found.text))
     rows = [as_read(row, standing.get(row.id)) for row in rows]
-    letters = table_of(rows, facts, found.text)
+    letters = letters_with_what_follows(rows, facts, found.text)
     while unreadable := first_unreadable(tuple(rows), letters):
         left = {"role": "words", "unread": f"'{unreadable[1]}'"}
         rows = [row.model_copy(update=left) if row.id == unreadable[0] else row for row in rows]
-        letters = table_of(rows, facts, found.text)
+        letters = letters_with_what_follows(rows, facts, found.text)
     return rows, letters, standing
 
 
@@ -197,6 +199,16 @@ def _cases(printed: str) -> list[str]:
     if not all(value and condition for value, condition in parts):
         return []
     return [" ".join(rf"{found['before']} {value} \text{{if}} {condition}".split()) for value, condition in parts]
+
+
+def _with_text(rows: list[RowEntry], text: str, limits: list[str]) -> list[RowEntry]:
+    """The rows, behind what the running text alone says of their letters: values, rates, and bounds."""
+    moves = [found[1] for found in _MOVED.finditer(text)]
+    return _with_definitions([
+        *(RowEntry(id=f"motion{number}", title=f"Motion {number} in the text", role="claim", printed=one)
+          for number, one in enumerate(moves, 1)),
+        *(RowEntry(id=f"bound{number}", title=f"Bound {number} in the text", role="assumption", printed=one)
+          for number, one in enumerate(limits, 1)), *rows], text)
 
 
 def _with_definitions(rows: list[RowEntry], text: str) -> list[RowEntry]:

@@ -14,19 +14,27 @@ from workbench.paper.source.phrases import Grammar
 
 DISPLAY, REFERENCE = "$$", "#"
 LETTERS, REAL, SIGN, DEFINES, RELATION = "$letters", "$real", "$sign", "$defines", "$relation"
+MOVES, TENDS = "$moves", "$tends"
 VALUE, TIME = "$value", "$time"
-KINDS = {"LETTERS": (LETTERS,), "REAL": (REAL,), "SIGN": (SIGN,), "RELATION": (RELATION, DEFINES), "VALUE": (VALUE,),
-         "DEFINES": (DEFINES,), "TIME": (TIME,), "DISPLAY": (DISPLAY,), "REF": (REFERENCE,),
-         "VALUES": (LETTERS, VALUE, REFERENCE)}
+KINDS = {"LETTERS": (LETTERS,), "REAL": (REAL,), "SIGN": (SIGN,), "RELATION": (RELATION, DEFINES, MOVES),
+         "LIMIT": (RELATION,), "MOVES": (MOVES,), "TENDS": (TENDS,), "VALUE": (VALUE,), "DEFINES": (DEFINES,),
+         "TIME": (TIME,), "DISPLAY": (DISPLAY,), "REF": (REFERENCE,), "VALUES": (LETTERS, VALUE, REFERENCE)}
 # What is told of a sentence: where it states facts, what it claims, gives, defines or supposes, and what restricts it.
 KEPT = ("fact", "claimed", "stated", "given", "defined", "supposed", "restricts", "restricts_bare", "then", "held",
         "value", "clause", "unsigned", "judged", "inset", "holds",
-        "laid")
+        "laid", "bounded", "suits", "limit", "moved")
 _RULES = r"""
-sentence = <bare> | <lays> | <declares> | <if_then> | <supposes> | <leads> :? | <asserts> | <concerns> | <invites> |
+sentence = <lets> <after>* | <aims> | <moves_plant> | <suits> | <bare> | <lays> | <declares> | <if_then> | <supposes> |
+    <leads> :? | <asserts> | <concerns> | <invites> |
     [<declares> [and | , and | ;]]? <clause> [<joint>? <clause>]*
+lets = CONNECTIVE* ,? let <part>? <value> [[, | and | , and] <part>? <value>]* ,? and <things>? :? <defined>
+# a plant within the text
+moves_plant = [we | let us | us]? [consider | study] <thing> [MADE <as>? | [that | which] [is | are] MADE <as>?]? :?
+    <moved> [,? [where | with | in which] <declared> [<andmore> <declared>]*]? | <subject> <is> :? <moved> [,? [where
+    | with | in which] <declared> [<andmore> <declared>]*]?
+moved = MOVES [[, | and | , and] MOVES]*
 joint = , | ; | : | and | , and | ; and | , while
-clause = <opener>* <saying> <after>*
+clause = <opener>* <taking>? <saying> <after>*
 # a formula with no word before it, letters said first and then a formula
 bare = <laid> [,? [where | with | in which] <declared> [<andmore> <declared>]*]+
 lays = [with | let | where] <declared> [<andmore> <declared>]* ,? <laid>
@@ -90,7 +98,8 @@ sure_of = it is ADVERB* [clear | easy | obvious | immediate | evident | straight
 named = the? [inequality | identity | bound | estimate | relation | equality] <claimed>
 # a quantity that follows, and one that is given
 stated = [whose | its]? <derived> <is> [, <quantified> ,]? :? <shown>
-given = [<subject> | it | they] <is> [, <quantified> ,]? :? <shown>
+given = [<subject> | it | they] <is> [, <quantified> ,]? :? <shown> | <part>? <value> [[, | and | , and] <value>]* ,?
+    <is> :? <shown>
 subject = <subjects> [[, | and | , and | together with] <subjects>]*
 subjects = DETERMINER? [MODIFIER | NOUN | NAME]* [QUANTITY | LETTERS | VALUE | REF] [LETTERS | VALUE | <inset>]? REF?
     [[of | for | in | along | with respect to | with] <part>]*
@@ -98,7 +107,8 @@ inset = REAL | SIGN
 is = ADVERB* [IS | [has | have | takes | take] the following? form | [is | are] ADVERB* MADE | can ADVERB* be ADVERB*
     MADE | is then | [was | were | been] MADE] <as>?
 as = [as | by | from | in the form | to be | to | of the form | in terms of] [follows | above | below | <thing> as]?
-defines = [we | let us | us | one]? ADVERB* DEFINE <things>? <being>? <as>? :? <defined> | let <things>? [be ADVERB*
+defines = [we | let us | us | one]? ADVERB* DEFINE [<part>? <value> [[, | and | , and] <part>? <value>]* ,? and]?
+    <things>? <being>? <as>? :? <defined> | let <things>? [be ADVERB*
     MADE? | be MADE]? <as>? :? <defined> [be <kind> | denote <kind>]? | DEFINING <things>? <as>? <defined> ,? | [with
     | where | and | under] <things>? <being>? <as>? <defined> | <things> <defined> [is | are] [introduced | considered
     | used | chosen | defined | employed | proposed | selected] | [the | our] [error | errors] [is | are] <defined>
@@ -113,22 +123,30 @@ heldone = <related> [holds | hold]? | <things>? <list> [<be> [<kind> | <adjectiv
 if_then = if <related> [and <related>]* ,? then? <then>
 then = <related> [and <related>]*
 # what stands behind a formula
-after = ,? <quantified> | ,? [which is]? MADE [by | from | via | through | according to | using] <things>? :?
-    <defined> | ,? [where | with | in which] <declared> [<andmore> <declared>]* | ,? <restricts> | ,? where
-    <part> uses <things> | ,? which [completes | concludes | ends] [the | our] proof | , which [is | are] [negative |
-    positive] [definite | semidefinite | semi-definite] | ,? as [claimed | desired | required | stated] | [by | from |
-    due to | because of] <things> | , where we [have]? used <things> | , where [the last | the | use] [inequality |
-    step | is] [follows from | uses | made of | due to] <things> | , [respectively]
+after = ,? <quantified> | ,? with <things> :? <defined> | ,? [which is]? MADE [by | from | via | through | according
+    to | using] <things>? :? <defined> | ,? [where | with | in which] [<declared> | <bound>] [<andmore> [<declared> |
+    <bound>]]* | ,? <restricts> | ,? where <part> uses <things> | ,? which [completes | concludes | ends] [the | our]
+    proof | , which [is | are] [negative | positive] [definite | semidefinite | semi-definite] | ,? as [claimed |
+    desired | required | stated] | [by | from | due to | because of] <things> | , where we [have]? used <things> | ,
+    where [the last | the | use] [inequality | step | is] [follows from | uses | made of | due to] <things> | ,
+    [respectively]
 andmore = [, | ; | and | , and | ; and] [where | with | let]? | with
 # what letters are
 declares = [throughout [the | this] [paper | note | section | work | thesis]? ,?]? [CONNECTIVE ,? | in this [paper |
     section | chapter] ,?]? [[let | where | with | in which | we assume that | it is assumed that | we denote by |
     denote by | we write]? <declared> [<andmore> <declared>]* | [it | one | this] has <fact> [<andmore> <fact>]* |
-    <opener>* <inline> [<andmore> [<inline> | <declared>]]* | let <declared> [<andmore> <declared>]* <andmore> <inline>]
-inline = [let | we? ADVERB* DEFINE]? [<thing> | the error | the errors]? [be | as | by | is | are]? <value> [[of | for
-    | with] <fact> | [be | denote | denotes | represent]? <kind>]?
+    <opener>* <inline> [<andmore> [<inline> | <declared> | <given>]]* <after>* | let <declared> [<andmore>
+    <declared>]* <andmore> <inline>]
+taking = for <part> <value> ,?
+inline = [let | we? ADVERB* DEFINE]? [<thing> | the error | the errors]? [be | as | by | is | are | <is>]? <value>
+    [[of | for | with] <fact> | [be | denote | denotes | represent]? <kind>]?
 value = DEFINES
-declared = <fact> [, respectively]? | <both> | <unsigned>
+declared = <fact> [, respectively]? | <both> | <unsigned> | <bounded> | <value> <be> <kind>
+bounded = <fact> [satisfying | obeying | that satisfies | which satisfies | with | [that is]? bounded by] <limit>
+bound = [<things> [satisfies | satisfy | is bounded by | are bounded by]]? <limit>
+suits = the [ideal | matching | true | unknown | control | feedback]? [gains | parameters | constants | coefficients]
+    <list> [satisfy | fulfil | fulfill | obey] [the [matching]? [condition | conditions | equations]]? <limit>
+limit = LIMIT [and LIMIT]*
 unsigned = <list> <be> not <adjectives> | <list> <be> <kind>? [positive | negative] [definite | semidefinite]
 fact = <list> <be> <kind> | <kind> <list> | <kind> <list> <be> <kind> | <kind> <list> vary | <kind> <be> <list> |
     <kind> <be> <adjectives> | <list> <be> <adjectives> | <list> | <list> <kind> | <list> vary | <list> [as | for]
@@ -152,20 +170,23 @@ assumed = [we assume that | it is assumed that | assume that | suppose that | th
 relates = RELATION | <fact> | <shown>
 # a relation that is claimed within the text, what is said of a motion, what is going to be done
 asserts = <opener>* [<say> that?]? <held> [<holds> | [by | from | since | for] <things>]?
-concerns = <opener>* [<things> <moves> [[, | and | , and] <things>? <moves>]* | <judged> [,? <because>]?] |
-    DETERMINER [MODIFIER | NOUN]* [of | with] [MODIFIER | NOUN]* NOUN <inset> <travels>
+concerns = <opener>* [[<signals> | TENDS [as TIME]? | <things> <moves>] [[, | and | , and] [<things>? <moves> | TENDS
+    [as TIME]?]]* | <judged> [,? <because>]?] | DETERMINER [MODIFIER | NOUN]* [of | with] [MODIFIER | NOUN]* NOUN
+    <inset> <travels>
 travels = [moves | runs | travels | slides | rolls | rotates | swings] [on | along | in | over | about | around]
     <things>
 judged = <things> [is | are] ADVERB* <adjectives> | [this | it | which] is ADVERB* [immediate | clear | obvious |
     evident | straightforward] [from <things>]?
 because = [since | because | as | by] [<related> [and <related>]* | <things> [[is | are] <adjectives>]?]
-moves = [does | do] not [increase | grow] MANNER* | [is | are] MANNER* [STABLE | attractive | bounded | invariant |
-    passive] | [converge | converges | tend |
-    tends] MANNER* to [zero | the origin | <things>] MANNER* [as TIME]? | [decreases | increases | decrease | increase
-    | vary | decays] MANNER*
-invites = [let us | we] ADVERB* [compute | calculate | expand | differentiate | analyse | analyze | study | estimate |
-    bound] <things>? | this [completes | concludes | ends | proves | establishes] [the | our] [proof | lemma | theorem
-    | result | statement]
+signals = [all | the]? [all | of]? [the]? [signals | states | variables] [[in | of] <things>]? [are | remain] MANNER*
+    bounded
+moves = [is | are] reached in [finite | fixed] time | [does | do] not [increase | grow] MANNER* | [is | are] MANNER*
+    [STABLE | attractive | bounded | invariant | passive] | [converge | converges | tend | tends] MANNER* to [zero |
+    the origin | <things>] MANNER* [as TIME]? | [decreases | increases | decrease | increase | vary | decays] MANNER*
+invites = consider [now | again]? <things> | [let us | we] ADVERB* [compute | calculate | expand | differentiate |
+    analyse | analyze | study | estimate | bound] <things>? | this [completes | concludes | ends | proves |
+    establishes] [the | our] [proof | lemma | theorem | result | statement]
+aims = [the | our] [control | design | main]? [objective | goal | aim | task | problem] is to [track | follow] <fact>
 leads = CONNECTIVE* ,? [we ADVERB* HAVE]? the following MODIFIER? [inequalities | identities | bounds | relations |
     properties | estimates | equations | statements]? [hold | are true]?
 restricts_bare = RELATION

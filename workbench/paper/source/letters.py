@@ -11,6 +11,7 @@ from workbench.proof.latex.read import read_line
 from workbench.proof.latex.rows import LetterEntry, RowEntry, text_of
 from workbench.proof.latex.sides import (
     RATES,
+    is_of_time,
     letter_latex,
     letters_in,
     letters_of_text,
@@ -18,12 +19,12 @@ from workbench.proof.latex.sides import (
     moving_sides,
     sides_of,
 )
-from workbench.proof.latex.tree import Letter, Node, Number
+from workbench.proof.latex.tree import Letter, Node, Number, Product
 
 _FOR = re.compile(
     r"\b(?:for|on)\s+(?:(?:all|every|any|each|some)\s*)?\$[^$]*(?:[=<>]|\\(?:leq?|geq?|leqslant|geqslant|ne|neq|in)(?![A-Za-z])"
     r"(?!\s*\\mathbb\s*\{R\}(?:\^[^$\s]*)?\s*\$))[^$]*\$", re.IGNORECASE | re.DOTALL)
-_INLINE = re.compile(r"(?<![\\$])\$(?!\$)(.+?)(?<!\\)\$(?!\$)|\\\((.+?)\\\)", re.DOTALL)
+INLINE = re.compile(r"(?<![\\$])\$(?!\$)(.+?)(?<!\\)\$(?!\$)|\\\((.+?)\\\)", re.DOTALL)
 _LIST = r"((?:\$[^$]+\$(?:\s*,\s*(?:and\s+)?|\s+and\s+)?)+)"
 _CONSTANTS = re.compile(r"\b(?:constants?|gains?|parameters?)\b"
                         r"(?![^$]{0,30}\b(?:on|over|in|for|of|at|when|with|to|by)\b)[^.,;:$]{0,30}" + _LIST,
@@ -34,16 +35,19 @@ _NOUNS = (r"(?:(?:real|known|unknown|finite|scalar|design|control|controller|tun
 _POSITIVE = re.compile(r"\b(?<!non)(?<!non-)(?<!or )(?<!for )(?<!all )(?<!any )(?<!every )(?<!each )positive\s+"
                        + _NOUNS + _LIST, re.IGNORECASE)
 _ARE_POSITIVE = re.compile(
-    _LIST + r"\s*(?:be|are|is)\s+(?:an?\s+|all\s+|some\s+)?positive\s+(?:\w+\s+){0,2}?"
+    _LIST + r"\s*(?:be|are|is)\s+(?:an?\s+|all\s+|some\s+)?(?:(?:known|unknown|given|real|fixed|finite)\s+)*"
+    r"positive\s+(?:\w+\s+){0,2}?"
     r"(?:constants?|gains?|numbers?|scalars?|parameters?)\b", re.IGNORECASE)
 _ARE_CONSTANTS = re.compile(
     _LIST + r"\s*(?:be|are|is)\s+(?:an?\s+|all\s+|some\s+|the\s+)?"
-    r"(?:(?:(?:positive|nonnegative|real|known|unknown|design|control)\s+)*(?:constants?|gains?|parameters?)\b"
+    r"(?:(?:(?:positive|nonnegative|real|known|unknown|design|control|feedback|observer|adaptation|tuning)\s+)*"
+    r"(?:constants?|gains?|parameters?)\b"
     r"|(?!piecewise|locally|almost|nearly|slowly|not|no)[a-z-]+\s+constants?(?=[\s]*(?:[,.;]|and\b|of\b|\Z)))",
     re.IGNORECASE)
 _INPUTS = re.compile(r"\b(?:disturbances?|inputs?|references?)\b[^.,;:$]{0,30}" + _LIST, re.IGNORECASE)
 _ARE_REFERENCES = re.compile(
-    _LIST + r"\s*(?:be|are|is|denotes?)\s+(?:an?\s+|the\s+)?(?:desired|reference|commanded|prescribed)\s+[a-z]+",
+    _LIST + r"\s*(?:be|are|is|denotes?)\s+(?:an?\s+|the\s+)?(?:(?:desired|reference|commanded|prescribed)\s+[a-z]+"
+    r"|(?:(?:bounded|smooth|given|known|once|twice|thrice|continuously|differentiable)\s+)*reference\b)",
     re.IGNORECASE)
 _CONDITIONAL = re.compile(
     r"\b(?:if|when|whenever|unless|otherwise|either|or|not|without|then|impl\w+|(?:all|every|any|each)\b.*\bexists?)\b"
@@ -82,13 +86,13 @@ _SIGNS = {">": "positive", ">=": "nonnegative"}
 
 def letters_said(fact: str) -> set[str]:
     """The letters of a fact's formulas."""
-    formulas = [(inline[1] or inline[2]).strip(" .,;") for inline in _INLINE.finditer(fact)]
+    formulas = [(inline[1] or inline[2]).strip(" .,;") for inline in INLINE.finditer(fact)]
     return {letter for formula in formulas for letter in letters_of_text(formula)}
 
 
 def says_sign(fact: str) -> bool:
     """Whether a fact says a sign, by a word or a formula."""
-    formulas = [(inline[1] or inline[2]).strip(" .,;") for inline in _INLINE.finditer(fact)]
+    formulas = [(inline[1] or inline[2]).strip(" .,;") for inline in INLINE.finditer(fact)]
     return "positive" in fact or "negative" in fact or any(
         kind != "real" for formula in formulas for _, kind in kinds_in(formula))
 
@@ -97,7 +101,7 @@ def signed_by_words(fact: str) -> set[str]:
     """The letters of a fact that speaks of their sign in words, but those that it calls real."""
     if "positive" not in fact and "negative" not in fact:
         return set()
-    formulas = [(inline[1] or inline[2]).strip(" .,;") for inline in _INLINE.finditer(fact)]
+    formulas = [(inline[1] or inline[2]).strip(" .,;") for inline in INLINE.finditer(fact)]
     return {letter for formula in formulas if not [*kinds_in(formula)] for letter in letters_of_text(formula)}
 
 
@@ -105,7 +109,7 @@ def said_of(facts: str) -> dict[str, str]:
     """Of each letter the first fact that speaks of it."""
     found: dict[str, str] = {}
     for fact in facts.split("\n\n"):
-        for inline in _INLINE.finditer(fact):
+        for inline in INLINE.finditer(fact):
             for letter in letters_of_text((inline[1] or inline[2]).strip(" .,;")):
                 found.setdefault(letter, fact.removesuffix("."))
     return found
@@ -128,10 +132,10 @@ def table_of(rows: list[RowEntry], facts: str, text: str) -> dict[str, LetterEnt
         if row.role in ("definition", "dynamics"):
             kinds |= dict(kinds_in(text_of(row)))
     kinds = dict.fromkeys((*_named(_POSITIVE, facts), *_named(_ARE_POSITIVE, facts)), "positive") | kinds
-    constant = {*_named(_ARE_CONSTANTS, facts)} - _printed_of_time(text, rows)
-    constants = {*_named(_CONSTANTS, facts)} - _printed_of_time(text, rows) | constant
-    inputs = {*_named(_INPUTS, facts)} | ({*_named(_ARE_REFERENCES, facts)} & _rated(rows))
-    unclear = set(_valued_elsewhere(text))
+    constant = {*_named(_ARE_CONSTANTS, facts)} - printed_of_time(text, rows)
+    constants = {*_named(_CONSTANTS, facts)} - printed_of_time(text, rows) | constant
+    inputs = {*_named(_INPUTS, facts)} | ({*_named(_ARE_REFERENCES, facts)} & rated(rows))
+    unclear = set(valued_elsewhere(text))
     entries = {}
     for letter in found:
         if letter in defined:
@@ -154,7 +158,7 @@ def _estimated(letter: str) -> str:
 def functions_in(text: str) -> set[str]:
     """The letters that the text calls functions of the state: an energy, a storage or a Lyapunov function."""
     return {letter for pattern in (_FUNCTIONS, _ARE_FUNCTIONS) for found in pattern.finditer(text)
-            for inline in _INLINE.finditer(found[1])
+            for inline in INLINE.finditer(found[1])
             for letter in letters_of_text(re.split(r"=|\(|\\in(?![A-Za-z])", inline[1] or inline[2])[0])}
 
 
@@ -171,7 +175,7 @@ def assumed_formulas(text: str) -> Iterator[str]:
     text = _AT_ALL_TIMES.sub(" ", text)
     if on_condition(text):
         return
-    for inline in _INLINE.finditer(text):
+    for inline in INLINE.finditer(text):
         formula = (inline[1] or inline[2]).strip(" .,;")
         try:
             chains = read_line(formula).chains
@@ -187,7 +191,7 @@ def defined_in_text(text: str) -> dict[str, str]:
     and the formula; a letter with two of them is left out, as is what holds within a theorem or a proof alone."""
     text = _ENVIRONMENT.sub(" ", text)
     found: dict[str, set[str]] = {}
-    for inline in _INLINE.finditer(text):
+    for inline in INLINE.finditer(text):
         formula = (inline[1] or inline[2]).strip(" .,;")
         values, _ = values_and_rates(formula)
         for letter, value in values.items():
@@ -198,10 +202,10 @@ def defined_in_text(text: str) -> dict[str, str]:
     return {letter: formulas.pop() for letter, formulas in found.items() if len(formulas) == 1}
 
 
-def _valued_elsewhere(text: str) -> Iterator[str]:
+def valued_elsewhere(text: str) -> Iterator[str]:
     """The letters that a formula in the text gives a value of other letters: where nothing says that it defines them,
     they are left to the author."""
-    for inline in _INLINE.finditer(text):
+    for inline in INLINE.finditer(text):
         for letter, value in values_and_rates((inline[1] or inline[2]).strip(" .,;"))[0].items():
             if letters_of_text(value):
                 yield letter
@@ -215,7 +219,7 @@ def _named(pattern: re.Pattern[str], text: str) -> Iterator[str]:
         if (pattern is not _INPUTS and _NOT_EVERYWHERE.search(sentence)) or (
                 pattern is _CONSTANTS and _VARIES.search(near)):
             continue
-        for inline in _INLINE.finditer(found[1]):
+        for inline in INLINE.finditer(found[1]):
             formula = inline[1] or inline[2]  # the disturbance |d| <= D: d is one, D is not
             yield from letters_of_text(_RELATION.split(formula)[0] if pattern is _INPUTS else formula)
 
@@ -226,22 +230,22 @@ def _around(text: str, start: int, end: int) -> str:
     return f"{_SENTENCE.split(before)[-1]} {text[start:end]} {_SENTENCE.split(behind)[0]}"
 
 
-def _rated(rows: list[RowEntry]) -> set[str]:
+def rated(rows: list[RowEntry]) -> set[str]:
     """The letters of which a rate is printed."""
     return {letter_latex(one) for row in rows if row.role != "words" for one in letters_in(text_of(row))
             if one.accents[-1:] and one.accents[-1] in RATES}
 
 
-def _printed_of_time(text: str, rows: list[RowEntry]) -> set[str]:
+def printed_of_time(text: str, rows: list[RowEntry]) -> set[str]:
     """The letters that are printed with the time somewhere, as `\\theta(t)`: of those no word makes constants."""
-    formulas = [inline[1] or inline[2] for inline in _INLINE.finditer(text)]
+    formulas = [inline[1] or inline[2] for inline in INLINE.finditer(text)]
     formulas += [text_of(row) for row in rows if row.role != "words"]
     return {letter for formula in formulas if "(t)" in formula for letter in letters_of_time(formula)}
 
 
 def _kinds(text: str) -> Iterator[tuple[str, str]]:
     r"""Letters whose sign a formula in the text says, as `k, c > 0`, or that they are real, as `x \in \mathbb{R}`."""
-    for inline in _INLINE.finditer(text):
+    for inline in INLINE.finditer(text):
         conditional = _ON_CONDITION.search(text[:inline.start()]) is not None or _NOT_EVERYWHERE.search(
             _around(text, inline.start(), inline.end())) is not None
         for letter, kind in kinds_in((inline[1] or inline[2]).strip(" .,;")):
@@ -262,8 +266,10 @@ def kinds_in(formula: str) -> Iterator[tuple[str, str]]:
             continue
         kind = _kind(chain.signs, chain.sides[1:])
         for side in waiting:
-            if kind and isinstance(side, Letter):
-                yield letter_latex(side), kind
+            timed = isinstance(side, Product) and len(side.factors) == 2 and is_of_time(side.factors[1])
+            head = side.factors[0] if isinstance(side, Product) and timed else side
+            if kind and isinstance(head, Letter):
+                yield letter_latex(head), kind
         waiting = []
 
 

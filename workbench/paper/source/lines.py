@@ -16,8 +16,11 @@ _SYSTEM = re.compile(
     r"(?:(?:\\left)?\s*(?:\\\{|\\lbrace)\s*\\begin\s*\{(?P<name>array|aligned|split|matrix|gathered)\}|"
     r"\\begin\s*\{(?P<cases>cases)\})(?:\s*\[[a-z]\])?(?:\s*\{[lcr@{}\s]*\})?(?P<lines>.*?)"
     r"\\end\s*\{(?:(?P=name)|(?P=cases))\}\s*(?:\\right\s*\.)?\s*", re.DOTALL)
+DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "alignat", "IEEEeqnarray", "dmath",
+            "displaymath")
 LABEL = re.compile(r"\\label\s*\{([^{}]*)\}")
 TAG = re.compile(r"\\(?:tag\*?\s*\{|l?eqno(?![A-Za-z])\s*\{?\(?)([^{}()\\]*)[)}]*")
+_REFERENCE = re.compile(r"\\(?:eqref|[cC]ref|autoref|ref)\s*\{([^{}]*)\}")
 WITHOUT_NUMBER = re.compile(r"\\(?:nonumber|notag|IEEEnonumber)(?![A-Za-z])")
 _LAYOUT = re.compile(r"\\(?:IEEEyesnumber|IEEEeqnarraynumspace|displaybreak)(?![A-Za-z])\*?|"
                      rf"\\(?:short)?intertext\s*\{{\s*(?:(?:{'|'.join(sorted(CONNECTIVES))})[\s,]*)+\}}", re.IGNORECASE)
@@ -105,3 +108,19 @@ def cleaned(line: str) -> str:
     kept = "".join(sign if sign != "&" or line[at - 1:at] == "\\" or any(start <= at < end for start, end in inner)
                    else COLUMN for at, sign in enumerate(line))
     return without_end(without_columns(kept))
+
+
+def without_marks(text: str) -> str:
+    """A display without its labels and numbers, for how its sentence goes on."""
+    return re.sub(r"\\(?:nonumber|notag|IEEEnonumber)(?![A-Za-z])", "", TAG.sub("", LABEL.sub("", text)))
+
+
+def references(text: str) -> list[str]:
+    """The labels that a text refers to, in order."""
+    return [label.strip() for labels in _REFERENCE.findall(text) for label in labels.split(",")]
+
+
+def without_displays(text: str) -> str:
+    """A text without its displayed formulas."""
+    names = "|".join((*DISPLAYS, "subequations"))
+    return re.sub(rf"\\begin\s*\{{({names})\*?\}}.*?\\end\s*\{{\1\*?\}}", "", text, flags=re.DOTALL)

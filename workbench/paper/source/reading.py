@@ -14,27 +14,22 @@ from itertools import pairwise
 from types import MappingProxyType
 
 from workbench.paper.source import forms, narrowing, things, understood, vocabulary
+from workbench.paper.source.classes import classes_of, formula_class
+from workbench.paper.source.given import letter_of
 from workbench.paper.source.idioms import plainly
-from workbench.paper.source.letters import kinds_in, values_and_rates
 from workbench.paper.source.passages import Sentence, Word
 from workbench.paper.source.plain import described, exchanges, letters_within, neutral, revalued
-from workbench.proof.latex.error import LatexError
-from workbench.proof.latex.read import read_line
-from workbench.proof.latex.sides import letters_of_text
-from workbench.proof.latex.tree import Group, Letter, Line, Node, Product
 
 DEFINE = "Define "  # with this a fact begins that gives a letter a value
+MOVE = "Move "  # and with this one that gives a letter a rate
 GIVING = ("given", "defined", "bare")  # what of a display gives letters values or rates
 EVERYTHING = "*"  # stands for all letters, where a sentence without any may restrict them
 LONGEST = 220  # words of a sentence that is read; a longer one is left to the author
-_TIME = re.compile(r"(?:\\forall\s*)?t\s*(?:(?:\\geq?|\\geqslant|>)\s*(?:0|t_0|t_\{0\})|\\in\s*\[0,\s*\\infty\))?")
-_REAL = re.compile(r"(?P<letters>.*?)\\in\s*\\mathbb\s*(?:\{R\}|R)\s*(?:\^\s*(?:[a-z0-9]|\{[^{}<>=]*\}))?\s*",
-                   re.DOTALL)
-_RELATED = re.compile(r"[=<>]|\\(?:leq?|geq?|leqslant|geqslant|in|notin|neq?|ll|gg|approx|sim|to|rightarrow|Rightarrow|"
-                      r"implies|iff|forall|exists|equiv|subset\w*|mapsto|prec\w*|succ\w*|lesssim|gtrsim|triangleq|coloneqq|doteq|lt|gt|not)"
-                      r"(?![A-Za-z])")
 # A value behind one of these is that of what it names: `the analysis is based on the function ...`.
 _CHOSEN = {"function", "functional", "candidate", "law", "controller", "observer", "filter", "surface"}
+# Of what is so called a bound may be stated for the whole paper.
+_BOUNDED = things.SIGNALS - {"signal", "signals"} | narrowing.words_of(
+    "constant constants gain gains parameter parameters coefficient coefficients")
 _POINTING = {"it", "this", "they", "these", "them", "that"}
 # Whose letters are not the plant's.
 _STRANGERS = {"leader", "leaders", "follower", "followers", "agent", "agents", "neighbour", "neighbor", "node", "nodes",
@@ -48,7 +43,8 @@ class Reading:
 
     shown: for each of its displays whether it is claimed, stated of what follows, given, defined, or supposed; bare
     where no word stands with it. facts: what it says of letters, as printed. tied: displays that it says of some values
-    alone. restricted: the letters of what it supposes. letters: those of its formulas. unknown: the words that are
+    alone. restricted: the letters of what it supposes. limits: bounds of constants and signals, for the whole paper.
+    letters: those of its formulas. unknown: the words that are
     not understood. beyond: where it shows and says nothing, those by which it may tell that something else acts.
     """
 
@@ -56,6 +52,7 @@ class Reading:
     facts: tuple[str, ...] = ()
     tied: frozenset[int] = frozenset()
     restricted: frozenset[str] = frozenset()
+    limits: tuple[str, ...] = ()
     letters: frozenset[str] = frozenset()
     unknown: tuple[str, ...] = ()
     beyond: tuple[str, ...] = ()
@@ -66,15 +63,21 @@ def read_sentence(sentence: Sentence, body: str, assuming: bool = False, given: 
     """What a sentence says, if it is understood; assuming: that it stands in the text of an assumption; given: the
     letters that the text gives values; giving: the displays that give some, with the letters."""
     words = plainly(sentence.words)
+    if words and words[0].kind == "table":
+        letters = frozenset(letter for word in words if word.kind == "math" for letter in letters_within(word.text))
+        return Reading(letters=letters, restricted=letters)
+    if all(word.kind in ("display", "mark") for word in words):  # or no word at all, as in a rule or a list
+        return Reading({int(word.text): "bare" for word in words if word.kind == "display"})
+    return _read(words, body, assuming, given, giving)
+
+
+def _read(words: Sequence[Word], body: str, assuming: bool, given: Collection[str],
+          giving: Mapping[int, Collection[str]]) -> Reading:
     asks = words[-1].text == "?"
     while words and words[-1].kind == "mark" and words[-1].text in ".!;,":
         words = words[:-1]
     letters = frozenset(letter for word in words if word.kind == "math" for letter in letters_within(word.text))
     shown = [int(word.text) for word in words if word.kind == "display"]
-    if words and words[0].kind == "table":
-        return Reading(letters=letters, restricted=letters)
-    if all(word.kind in ("display", "mark") for word in words):  # or no word at all, as in a rule or a list
-        return Reading(dict.fromkeys(shown, "bare"))
     classes = classes_of(words)
     texts = [word.text if word.kind == "word" else "" for word in words]
     if not_whole := narrowing.up_to(texts):
@@ -93,9 +96,20 @@ def read_sentence(sentence: Sentence, body: str, assuming: bool = False, given: 
         return Reading(dict.fromkeys(shown, ""), letters=letters, unknown=_unknown(words, classes))
     else:
         said = _said(words, found, body, letters, told)
-    taken = {*range(len(texts))}.difference(*(range(start, end) for rule, start, end in found or () if rule == "fact"))
-    bound = [words[at].text for at in sorted(taken) if classes[at] in (forms.SIGN, forms.RELATION)]
+    if odd := _no_limits(said, words, found or (), given):
+        return Reading(dict.fromkeys(shown, ""), letters=letters, unknown=odd)
+    taken = {*range(len(texts))}.difference(*(range(start, end) for rule, start, end in found or ()
+                                              if rule in ("fact", "bounded", "limit", "moved")))
+    bound = [words[at].text for at in sorted(taken) if classes[at] in (forms.SIGN, forms.RELATION, forms.MOVES)]
     return _whole(said, texts, [text if at in taken else "" for at, text in enumerate(texts)], bound, giving)
+
+
+def _no_limits(said: Reading, words: Sequence[Word], found: Sequence[tuple[str, int, int]],
+               given: Collection[str]) -> tuple[str, ...]:
+    """The letters that bounds of a sentence restrict, where these are no bounds of constants and signals alone."""
+    within = {letter for one in said.limits for letter in letters_within(one)}
+    named = all({word.text for word in words[start:end]} & _BOUNDED for rule, start, end in found if rule == "bounded")
+    return tuple(sorted(within)) if not named or within & {*map(letter_of, given)} else ()
 
 
 def _neutrally(texts: Sequence[str], letters: frozenset[str], values: tuple[str, ...]) -> Reading:
@@ -113,12 +127,12 @@ def _whole(said: Reading, texts: Sequence[str], taken: Sequence[str], bound: Seq
     """What a sentence says; nothing where it speaks of a thing that is not understood, or gives a value or says a fact
     of a part of the motion alone. taken: its words but those that say what letters are; bound: its relations."""
     given = {letter for number, form in said.shown.items() if form in GIVING
-             for letter in giving.get(number, ())} or {fact for fact in said.facts if fact.startswith(DEFINE)}
+             for letter in giving.get(number, ())} or {fact for fact in said.facts if fact.startswith((DEFINE, MOVE))}
     if said.shown or given:
         odd = understood.not_understood(taken, not given, any(map(understood.is_marked, given))) or (
             (*bound, *(_STRANGERS & {*texts})) if given else narrowing.in_coordinates(texts))
     else:
-        odd = () if any("$" in fact for fact in said.facts) else understood.changed_by(texts)
+        odd = () if said.limits or any("$" in fact for fact in said.facts) else understood.changed_by(texts)
     if odd:
         return Reading(dict.fromkeys(said.shown, ""), letters=said.letters, unknown=tuple(odd))
     if understood.by_design(texts):
@@ -151,13 +165,20 @@ def _said(words: Sequence[Word], found: Sequence[tuple[str, int, int]], body: st
         body[word.start:word.end] for word in words[start:end] if word.kind == "math")
         for rule, start, end in found if rule == "inset" or (rule == "fact" and _is_taken(words[start:end], defines))]
     facts += [f"{DEFINE}{body[words[start].start:words[end - 1].end]}" for rule, start, end in found if rule == "value"]
+    facts += [f"{MOVE}{body[word.start:word.end]}" for rule, start, end in found if rule == "moved"
+              for word in words[start:end] if word.kind == "math"]
+    facts += [" and ".join(f"${word.text}$" for word in words[start:end] if formula_class(word.text) == forms.LETTERS)
+              + " are constants" for rule, start, end in found if rule == "suits"]
+    limits = [word.text for rule, start, end in found if rule == "limit" for word in words[start:end]
+              if word.kind == "math"] if {*said.values()} <= {*GIVING} else []
     if laid and not any(re.search(r"[A-Za-z]{3}|\\in", fact.split("$")[0]) or r"\in" in fact for fact in facts):
-        return Reading(said, (), frozenset(said), frozenset(), letters)  # with $z > 0$ alone, of such a z
+        return Reading(said, (), frozenset(said), letters=letters)  # with $z > 0$ alone, of such a z
     restricted = {letter for rule, start, end in found if rule in ("held", "then", "supposed", "unsigned", "judged")
                   for word in words[start:end] if word.kind == "math" for letter in letters_within(word.text)}
     bare = [(rule, start, end) for rule, start, end in found
             if rule == "fact" and not _is_taken(words[start:end], defines)]
-    return Reading(said, tuple(facts), _tied(words, found, bare), frozenset(restricted), letters)
+    bare += [one for one in found if one[0] == "limit" and not limits]
+    return Reading(said, tuple(facts), _tied(words, found, bare), frozenset(restricted), tuple(limits), letters)
 
 
 def _is_taken(words: Sequence[Word], defines: bool) -> bool:
@@ -181,70 +202,6 @@ def _tied(words: Sequence[Word], found: Sequence[tuple[str, int, int]],
                     one <= place < two for one, two in held))):
                 tied.add(int(word.text))
     return frozenset(tied)
-
-
-def classes_of(words: Sequence[Word]) -> list[str]:
-    """What the grammar reads of each word."""
-    found: list[str] = []
-    for place, word in enumerate(words):
-        if word.kind == "math":
-            found.append(formula_class(word.text))
-        elif word.kind == "display":
-            found.append(forms.DISPLAY)
-        elif word.kind == "reference":
-            found.append(forms.REFERENCE)
-        elif word.kind == "word":
-            found.append(_word_class(word.text, words[place - 1].text if place else "",
-                                     words[place + 1] if place + 1 < len(words) else None))
-        else:
-            found.append(word.text if word.kind == "mark" else "?")
-    return found
-
-
-def _word_class(text: str, before: str, behind: Word | None) -> str:
-    if text in ("error", "errors"):
-        signal = before in vocabulary.BEFORE_ERROR or (behind is not None and (
-            behind.kind in ("math", "display") or behind.text in (
-                "dynamics", "system", "variable", "variables", "signal")))
-        return forms.ERROR if signal else text
-    parts = text.split("-")
-    if len(parts) > 1 and text not in forms.KNOWN and all(
-            part in forms.MODIFIERS or part in forms.NOUNS for part in parts):
-        return parts[-1]
-    return text
-
-
-@lru_cache(maxsize=4096)
-def formula_class(formula: str) -> str:
-    """What a formula within the text is to the grammar; `?` for one that cannot be read and may be a relation."""
-    if _TIME.fullmatch(formula):
-        return forms.TIME
-    real = _REAL.fullmatch(formula)
-    try:
-        return _class_of(read_line(real["letters"] if real else formula), formula, real is not None)
-    except LatexError:
-        return "?" if _RELATED.search(formula) else forms.VALUE
-
-
-def _class_of(line: Line, formula: str, real: bool) -> str:
-    sides = [side for chain in line.chains for side in chain.sides]
-    if all(not chain.signs for chain in line.chains):
-        plain = all(map(_is_letter, sides)) and all(one in ((), (",",)) for one in line.separators)
-        return forms.REAL if real and plain else "?" if real else forms.LETTERS if plain else forms.VALUE
-    if real or any(one not in ((), (",",)) for one in line.separators):
-        return "?"
-    heads = [chain.sides[0] for chain in line.chains]
-    if all(map(_is_letter, heads)) and len([*kinds_in(formula)]) == len(heads):
-        return forms.SIGN
-    values, _ = values_and_rates(formula)
-    if len(values) == 1 and all(letters_of_text(right) - {letter} for letter, right in values.items()):
-        return forms.DEFINES
-    return forms.RELATION
-
-
-def _is_letter(side: Node) -> bool:
-    return isinstance(side, Letter) or (isinstance(side, Product) and len(side.factors) == 2
-                                        and isinstance(side.factors[0], Letter) and isinstance(side.factors[1], Group))
 
 
 def _loose(classes: Sequence[str]) -> bool:
@@ -287,6 +244,6 @@ def _unknown(words: Sequence[Word], classes: Sequence[str]) -> tuple[str, ...]:
 def heading_unknown(words: Sequence[Word], marked: bool) -> tuple[str, ...]:
     """The words of a heading that are not understood; none where all are. marked: whether what it stands over bears a
     mark, as what moves beside the plant does."""
-    texts = [word.text if word.kind == "word" else "" for word in words]
+    texts = [word.text if word.kind == "word" else "" for word in plainly(words)]
     return (*(word.text for word in words if word.kind in ("odd", "command", "cite")),
             *understood.heading_not_understood(texts, marked))

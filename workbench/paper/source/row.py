@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 
 
@@ -55,3 +56,9 @@ def resolve(rows: list[Row], groups: dict[str, list[str]]) -> None:
                 found.append(one)
         row.rests_on = tuple(found)
         chains[row.id] = set(found)
+
+
+def row_id(text: str) -> str:
+    """A number as the name of a claim."""
+    found = re.sub(r"[^A-Za-z0-9.+-]+", "-", text.replace("'", "prime")).strip("-.+") or "row"
+    return found[:60]

@@ -13,11 +13,12 @@ from workbench.paper.source.leading import as_led_to
 from workbench.paper.source.naming import named, of_another_value
 from workbench.paper.source.narrowing import background
 from workbench.paper.source.passages import Passages, Sentence, printed
-from workbench.paper.source.reading import GIVING, Reading, heading_unknown, read_sentence
+from workbench.paper.source.reading import DEFINE, GIVING, Reading, heading_unknown, read_sentence
 from workbench.paper.source.shown import Shown
 from workbench.paper.source.telling import as_told
 from workbench.paper.source.things import FUNCTIONS
 from workbench.paper.source.understood import one_of_several
+from workbench.proof.latex.sides import left_of, letters_of_text
 
 LOCAL = ("theorem", "lemma", "proposition", "corollary", "remark", "example", "proof", "note", "claim", "property",
          "fact", "problem")
@@ -97,7 +98,20 @@ class SaidText:
     def facts(self) -> str:
         """What the whole text says of letters, for the whole paper."""
         return "\n\n".join(f"{fact}." for sentence, reading in zip(self.passages.sentences, self.readings, strict=True)
-                           if not self.local(sentence) for fact in reading.facts)
+                           for fact in reading.facts if not self.local(sentence) or (
+                               fact.startswith(DEFINE) and self._proves(sentence)))
+
+    def _defines(self, gift: Gift) -> bool:
+        """Whether a sentence defines the letter to which it gives a value."""
+        return any(gift.letter in letters_of_text(fact.removeprefix(DEFINE).strip("$").partition("=")[0])
+                   for fact in self.readings[gift.at].facts if fact.startswith(DEFINE))
+
+    def limits(self) -> list[str]:
+        """The bounds of constants and signals that the text states for the whole paper, but of what it bounds twice."""
+        found = [(one, limit, frozenset(letters_of_text(left_of(limit)))) for one, reading in zip(
+            self.passages.sentences, self.readings, strict=True) for limit in reading.limits]
+        return [limit for sentence, limit, of in found if not self.local(sentence) and not any(
+            of == another for other, _, another in found if other is not sentence)]
 
     def understood(self, start: int, end: int) -> bool:
         """Whether all sentences between two places of the body are, and the titles of their environments."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
 
+from workbench.paper.source import moving, things
 from workbench.paper.source.calling import recalled
 from workbench.paper.source.conventions import of_another, shows_rate
 from workbench.paper.source.elsewhere import any_numbers, denoted_in_part, said_elsewhere
@@ -11,20 +12,23 @@ from workbench.paper.source.given import RATE, Gift, given_twice
 from workbench.paper.source.leading import near, points
 from workbench.paper.source.letters import letters_said, says_sign, signed_by_words
 from workbench.paper.source.naming import signed_by_nature, two_names
-from workbench.paper.source.narrowing import background, restricts
+from workbench.paper.source.narrowing import background, restricts, words_of
 from workbench.paper.source.passages import Sentence
-from workbench.paper.source.reading import EVERYTHING, GIVING, Reading, heading_unknown
+from workbench.paper.source.reading import DEFINE, EVERYTHING, GIVING, Reading, heading_unknown
 from workbench.paper.source.said import BEHIND, SaidText, quoted
 from workbench.paper.source.shown import Standing
 from workbench.paper.source.telling import of_a_motion
 from workbench.paper.source.understood import along_another, is_marked
-from workbench.proof.latex.sides import letters_of_text
+from workbench.proof.latex.sides import letters_of_text, valued_in
 
 ASIDE = {"remark", "note", "definition", "assumption"}  # environments that may speak of what stands around them
 # Nouns and adjectives by which a letter that had a sign is said to be something else.
 OTHERWISE = {"real", "number", "numbers", "scalar", "scalars", "function", "functions", "variable", "variables",
              "signal", "signals", "timevarying", "state", "input", "disturbance", "output", "vector", "matrix"}
 VARYING = {"function", "functions", "variable", "variables", "signal", "signals", "timevarying", "time"}
+_FOLLOWS = words_of("therefore hence thus consequently so")
+# A sentence with one of these says by itself what it gives, whatever stands over it.
+_NAMED = moving.PLANTS | things.LAWS | things.FUNCTIONS
 ALL = ("all", "every", "each", "any", "throughout", "everywhere", "always", "both", "paper", "none", "no", "never")
 
 
@@ -45,6 +49,7 @@ class Text(SaidText):
         doubts: list[str] = []
         contested: dict[str, str] = {}  # each letter with the sentence that says something of it
         signed: set[str] = set()
+        limits = self.limits()
         for before, (other, said) in enumerate(zip(self.passages.sentences, self.readings, strict=True)):
             beside = near(other, sentence)
             aside = other.aside or (said.unknown and {self._what(name) for name in self._names(other)} <= ASIDE)
@@ -68,12 +73,15 @@ class Text(SaidText):
                 if spoken & {*letters} or everywhere or beside or (not said.letters and (
                         section or restricts([*words], heading))):
                     doubts.append(self._told(before))
-            differs = self._differs(said, facts) if self.local(other) else set()
+            follows = before > at and other.words[0].text in _FOLLOWS  # what follows from it restricts it not
+            restricted = frozenset[str]() if follows else said.restricted
+            differs = (self._differs(said, facts) if self.local(other) else set()) - (said.restricted - restricted)
             contested = dict.fromkeys(differs, self._told(before)) | contested
             supposed = self._supposed(said, display, self._assumes(other))
             supposed |= said.letters if untold else set()
+            supposed |= {letter for one in said.limits if one not in limits for letter in letters_of_text(one)}
             signed |= {letter for fact in said.facts for letter in signed_by_words(fact)}
-            if (said.restricted | supposed | differs) & {*letters} or EVERYTHING in said.restricted:
+            if (restricted | supposed | differs) & {*letters} or EVERYTHING in restricted:
                 doubts.append(self._told(before))
         doubts += [self._told(place) for place in self._valued(letters)]
         last = self.readings[at - 1] if at else reading
@@ -160,7 +168,8 @@ class Text(SaidText):
     def _foreign(self, sentence: Sentence) -> set[str]:
         """The letters that displays of other proofs alone give, and, where a sentence stands in a statement or proof,
         those of other statements."""
-        shown = [(one.letter, self.passages.sentences[one.at]) for one in self.gifts if one.form != "inline"]
+        shown = [(one.letter, self.passages.sentences[one.at]) for one in self.gifts if one.form != "inline" or (
+            self._proves(self.passages.sentences[one.at]) and self._defines(one))]
         local = self.local(sentence)
         own = {letter for letter, other in shown if self._holds_at(other, sentence) or not (
             self.local(other) if local else self._proves(other))}
@@ -175,7 +184,9 @@ class Text(SaidText):
 
     def _differs(self, said: Reading, facts: Mapping[str, str]) -> set[str]:
         """The letters of which a sentence says something that the whole text does not."""
-        told = {letter for letter in said.letters if facts.get(letter) not in said.facts} if said.facts else set()
+        letters = said.letters if any(not fact.startswith(DEFINE) for fact in said.facts) else {
+            letter for fact in said.facts for letter in valued_in(fact.removeprefix(DEFINE).strip("$"))}
+        told = {letter for letter in letters if facts.get(letter) not in said.facts} if said.facts else set()
         return told | said.restricted
 
     def _named(self, names: Collection[str]) -> Iterator[str]:
@@ -189,7 +200,10 @@ class Text(SaidText):
         """Why what is shown in a sentence may be taken back, or said of something else."""
         sentence = self.passages.sentences[at]
         given = [letter for one in self.readings[at].shown for letter in self.formulas[one].gives]
-        marked = not given or any(map(is_marked, given))
+        moved = [letter for letter in given if letter.startswith(RATE)]
+        claimed = {*self.readings[at].shown.values()}.isdisjoint(GIVING)
+        marked = claimed or not moved or any(map(is_marked, moved)) or bool(
+            _NAMED & {word.text for word in sentence.words if word.kind == "word"})
         for heading in sentence.place.headings:
             unknown = heading_unknown(self.passages.headings[heading], marked)
             if unknown:

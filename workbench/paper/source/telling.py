@@ -35,7 +35,7 @@ _TELLING = words_of("""
     compact form notation is are will be can has have to of in on at for by with from as and or the a an its our
     uses gets yields gives yield give equals
     assumption assumptions every under square obviously clearly evidently good one switching
-    closed-loop lies rests relies based basis method approach technique
+    consider then reached finite signals closed-loop lies rests relies based basis method approach technique
 """)
 _LISTED = _TELLING | things.HEADS | things.OF_THEM | vocabulary.GERUNDS
 _FALLING = words_of("decreases decrease decays decay")  # of a function that is what is shown of it
@@ -59,7 +59,7 @@ def as_told(sentence: Sentence, said: Reading, giving: Mapping[int, Collection[s
         return Reading(dict.fromkeys(said.shown, ""), letters=said.letters, unknown=other) if other else said
     if said.shown:
         return replace(said, tied=said.tied | {*said.shown}) if of_a_motion(words) else said
-    return said if said.facts else replace(said, beyond=untold(words))
+    return said if said.facts or said.limits else replace(said, beyond=untold(words))
 
 
 def untold(words: Sequence[Word]) -> tuple[str, ...]:

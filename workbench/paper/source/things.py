@@ -40,12 +40,13 @@ ERRORS = _words("error errors error-signal deviation deviations variable variabl
 OF_ERRORS = _words("""
     tracking regulation estimation observation observer parameter position speed velocity level temperature current
     voltage angle altitude heading attitude state output formation spacing synchronization sliding switching new
-    filtered-error combined integral control following sliding-mode adaptation input approximation scalar
+    filtered filtered-error combined integral control following sliding-mode adaptation input approximation scalar
 """)
 # Numbers that a formula may give.
 NUMBERS = _words("gain gains parameter parameters constant constants coefficient coefficients number numbers scalar "
                  "matrix ratio product sum difference square")
-OF_NUMBERS = _words("positive real time scalar control controller design following damping feedback")
+OF_NUMBERS = _words(
+    "positive real time scalar control controller design following damping feedback adaptive adaptation")
 # What a law says that moves an estimate.
 UPDATES = _words("adaptation update learning tuning adaptive parameter estimation weight gradient")
 

@@ -50,7 +50,8 @@ _CLAIMING = (_GIVING | vocabulary.CLAIMING | vocabulary.HELD | _ORDINALS | words
 _HEADINGS = _words("""
     introduction problem formulation statement preliminaries main results description modelling modeling lecture
     controlled setup synthesis notation notations background backstepping sliding mode adaptive passivity digital
-    discrete-time on-board controller law laws stabilisation performance exercise solution day week
+    discrete-time on-board action anti-windup event-triggered iss input-to-state observer reference
+    controller law laws stabilisation performance exercise solution day week
 """)
 # By these a sentence without formulas changes what was given, or speaks of a part of it.
 _TURNS = _words("""
@@ -65,6 +66,7 @@ _CHOSEN = _words("design assumption construction choice hypothesis")
 _ENSURES = _words("guarantee guarantees guaranteed ensure ensures ensured")
 _NAMING = things.HEADS | things.OF_THEM
 _OTHERS = _words("other another old new left right front rear inner outer same")
+_SEVERAL = things.NUMBERS | _words("signals states variables")
 _MODELS = _words("model models linear")  # what belongs to a model may be none of the plant's
 _PLACES = _words("on at over within before after behind beyond")  # what is said of such a place holds there alone
 # Names of a plant that a filter's or an error's motion has none of.
@@ -75,7 +77,7 @@ _MOTIONS = _words("dynamics motion equation equations trajectories trajectory so
 
 def is_marked(letter: str) -> bool:
     r"""Whether a letter, or its rate, bears a mark by which it is none of the plant's, as `\\hat x` and `x_m`."""
-    return letter in ("r", "w") or _MARK.search(letter) is not None
+    return letter in ("r", "w") or letter.startswith(r"\alpha") or _MARK.search(letter) is not None
 
 
 def not_understood(texts: Sequence[str], claims: bool, marked: bool) -> tuple[str, ...]:
@@ -101,7 +103,8 @@ def _odd(texts: Sequence[str], known: Collection[str], beside: bool) -> tuple[st
         held |= {*range(start, end)}
     for at, text in enumerate(texts):
         behind = texts[at + 1] if at + 1 < len(texts) else ""
-        if text and at not in held and text not in known and not _goes_with(text, texts[at - 1] if at else "", behind):
+        if text and at not in held and text not in known and not (beside and text == "virtual") and not _goes_with(
+                text, texts[at - 1] if at else "", behind):
             odd[text] = None
     return tuple(odd)
 
@@ -109,6 +112,9 @@ def _odd(texts: Sequence[str], known: Collection[str], beside: bool) -> tuple[st
 def _goes_with(text: str, before: str, behind: str) -> bool:
     """Whether a word is understood by the one beside it: `second step`, `one gets`, `time derivative`, `this means`."""
     return (text in _ORDINALS and behind in _COUNTED | {""}) or (text == "one" and behind in vocabulary.HAS) or (
+        text in ("finite", "fixed") and behind == "time") or (text == "time" and before in ("finite", "fixed")) or (
+        text == "used" and before in ("is", "are") and not behind) or (
+        text == "updated" and behind in ("by", "according", "as", "via")) or (
         text == "time" and behind.startswith("derivative")) or (
         text == "mean" and (behind in ("value", "inequality") or before in ("that", "this", "which")))
 
@@ -131,7 +137,8 @@ def _misplaced(texts: Sequence[str], start: int, end: int, beside: bool) -> Iter
     thing, before = texts[end - 1], texts[start - 1] if start else ""
     kinds = frozenset().union(*(kinds for heads, kinds in things.KINDS if thing in heads))
     yield from (text for text in texts[start:end - 1] if text not in kinds)
-    if before and before not in _BEFORE and not (thing in things.NUMBERS and before in vocabulary.ALL):
+    if before and before not in _BEFORE and not (beside and before == "virtual") and not (
+            thing in _SEVERAL and before in vocabulary.ALL):
         yield before
     if not beside and thing not in things.ERRORS | things.NUMBERS:
         yield from moving.BESIDE & {*texts[start:end]}

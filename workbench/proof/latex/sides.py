@@ -20,7 +20,22 @@ _EQUALS = ("=", r"\triangleq", r"\coloneqq")
 _ORDERS = {"dot": 1, "ddot": 2}  # of the rates that a line may give
 _LAYOUT = re.compile(r"\\(?:begin|end)\s*\{(?:aligned|split|gathered)\}|(?<!\\)&")
 _END = re.compile(r"(?<!\\right)(?:[\s,;.]|\\q?quad(?![A-Za-z])|\\[,;: ]?)+\Z")
+_RELATION = re.compile(r"[=<>]|\\(?:leq?|geq?|leqslant|geqslant|ll|gg|lt|gt)(?![A-Za-z])")
 _OF_TIME = read_line("(t)").chains[0].sides[0]  # says nothing of the letter that it stands behind
+
+
+def left_of(text: str) -> str:
+    """What stands before the first relation of a line, as it is typed; all of a line without one, or not read."""
+    try:
+        sides = read_line(text).chains[0].sides
+    except LatexError:
+        return text
+    return _RELATION.split(text[:sides[1].position], maxsplit=1)[0] if len(sides) > 1 else text
+
+
+def is_of_time(node: Node) -> bool:
+    """Whether a node is the argument `(t)`, which says nothing of the letter before it."""
+    return node == _OF_TIME
 
 
 def letters_of_text(text: str) -> set[str]:
