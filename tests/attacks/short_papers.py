@@ -179,4 +179,62 @@ Choose the Lyapunov function $V = \frac12 s^2$. Then
 Therefore $\dot V \le -\sqrt{2}(\eta-\bar d) V^{1/2}$.
 \end{proof}
 """,
+    "robust": r"""
+\section{System Description and Problem Statement}
+In this paper, we consider the following uncertain nonlinear system:
+\begin{equation} \dot{x}(t) = -x(t) + \theta \sin(x(t)) + u(t) + \omega(t), \label{sys}\end{equation}
+where $x(t) \in \mathbb{R}$, $u(t)\in\mathbb{R}$ and $\omega(t)\in\mathbb{R}$ denote the state, the control input
+and the external disturbance, respectively, and $\theta \in \mathbb{R}$ is an unknown parameter.
+\begin{assumption}\label{a1} There exists a known constant $\bar\omega > 0$ such that $|\omega(t)| \le \bar\omega$
+for all $t \ge 0$. \end{assumption}
+\begin{assumption}\label{a2} The reference signal $x_r(t)$ and its derivative $\dot x_r(t)$ are known and bounded.
+\end{assumption}
+\section{Controller Design}
+Let $e = x - x_r$ denote the tracking error. We propose the following control law
+\begin{equation} u = x - \hat\theta \sin(x) + \dot x_r - k e - \bar\omega\, \mathrm{sign}(e),
+\label{u}\end{equation}
+where $k>0$ is the control gain and $\hat\theta$ is an estimate of $\theta$ which is updated according to
+\begin{equation} \dot{\hat\theta} = \Gamma e \sin(x), \label{adapt}\end{equation}
+where $\Gamma>0$ is the adaptation gain. Define the parameter estimation error as $\tilde\theta = \theta -
+\hat\theta$. Substituting \eqref{u} into \eqref{sys} gives the error dynamics
+\begin{equation} \dot e = -k e + \tilde\theta\sin(x) + \omega - \bar\omega\,\mathrm{sign}(e).
+\label{err}\end{equation}
+\begin{theorem} Under Assumptions \ref{a1} and \ref{a2}, the tracking error converges to zero. \end{theorem}
+\begin{proof}
+Consider the following Lyapunov function candidate
+\begin{equation} V = \frac{1}{2}e^2 + \frac{1}{2\Gamma}\tilde\theta^2. \label{V}\end{equation}
+The time derivative of \eqref{V} along the trajectories of \eqref{err} is
+\begin{align} \dot V &= e\dot e - \frac{1}{\Gamma}\tilde\theta\dot{\hat\theta} \label{v1}\\ &= -k e^2 + e\omega -
+\bar\omega|e| \label{v2}\\ &\le -k e^2. \label{v3}\end{align}
+It follows that $V$ is non-increasing and hence $e$ and $\tilde\theta$ are bounded. By Barbalat's lemma, $e(t) \to
+0$ as $t\to\infty$.
+\end{proof}
+""",
+    "disturbance_observer": r"""
+\section{Disturbance observer}
+Consider the first-order system
+\begin{equation} \dot x = a x + b u + d, \label{p}\end{equation}
+where $x\in\mathbb{R}$, $u\in\mathbb{R}$, $a$ and $b\neq 0$ are known constants, and $d$ is an unknown constant
+disturbance. A disturbance observer is designed as
+\begin{align} \hat d &= z + l x, \label{o1}\\ \dot z &= -l z - l(l x + a x + b u), \label{o2}\end{align}
+where $l>0$ is the observer gain. Let $\tilde d = d - \hat d$. Then we have
+\begin{equation} \dot{\tilde d} = -l\tilde d. \label{err}\end{equation}
+Take $V = \frac12\tilde d^2$. Then
+\begin{equation} \dot V = -2 l V. \label{dV}\end{equation}
+""",
+    "motor": r"""
+\section{Modeling}
+The DC motor is modeled by
+\begin{align} J \dot\omega &= K i - B\omega - \tau_L, \label{m}\\ L \dot i &= -R i - K\omega + v,
+\label{e}\end{align}
+where $\omega$ is the angular speed, $i$ is the armature current, $v$ is the armature voltage, and $J$, $K$, $B$,
+$L$, $R$ are positive constants. The load torque $\tau_L$ is constant.
+\section{Passivity}
+The stored energy is
+\begin{equation} H = \frac12 J\omega^2 + \frac12 L i^2. \label{H}\end{equation}
+Differentiating \eqref{H} along \eqref{m}--\eqref{e}, we get
+\begin{equation} \dot H = -B\omega^2 - R i^2 + v i - \omega\tau_L. \label{dH}\end{equation}
+When $\tau_L = 0$, we have
+\begin{equation} \dot H \le v i. \label{pas}\end{equation}
+""",
 }

@@ -202,4 +202,97 @@ with $k>0$. Let
 Then
 \begin{equation} \dot V = -k x^2. \tag{T} \end{equation}
 """, ("proved",)),
+    "quant_int": (r"""
+\begin{lemma} For any $n\in\mathbb{R}$, we have $n^2 \ge 0$. \end{lemma}
+Let $n$ be the number of cars. Then
+\begin{equation} n^2 \ge n. \tag{T} \end{equation}
+""", ("refuted",)),
+    "quant_other2": (r"""
+\begin{lemma} For any $a\in\mathbb{R}$ and any $\epsilon>0$, we have $a \le a + \epsilon$. \end{lemma}
+The fault $\epsilon$ acts on the sensor. Let $c\in\mathbb{R}$. Then
+\begin{equation} c + \epsilon \ge c. \tag{T} \end{equation}
+""", ("proved",)),
+    "taking3": (r"""
+Let $x\in\mathbb{R}$ and let $V\in\mathbb{R}$. For $V = x^2$ we obtain
+\begin{equation} V + 1 \ge 1. \end{equation}
+Also,
+\begin{equation} V \ge 0. \tag{T} \end{equation}
+""", ("proved",)),
+    "for_equil": (r"""
+Consider the system
+\begin{equation} \dot x = -x + u, \end{equation}
+where $x\in\mathbb{R}$ is the state and $u\in\mathbb{R}$ is the input. For $u = -x$ we obtain
+\begin{equation} \dot x = -2x. \end{equation}
+Let
+\begin{equation} V = \frac12 x^2. \end{equation}
+Then
+\begin{equation} \dot V = -2x^2. \tag{T} \end{equation}
+""", ("proved",)),
+    "fun_two": (r"""
+Consider the system
+\begin{equation} \dot x = f(x) + u, \end{equation}
+where $x\in\mathbb{R}$ is the state, $u$ is the input and $f(x)$ is an unknown function. The input is
+\begin{equation} u = -\hat f(x) - k x, \end{equation}
+where $k>0$ and $\hat f(x)$ is the approximation of $f(x)$. Then
+\begin{equation} \dot x = -k x. \tag{T} \end{equation}
+""", ("proved",)),
+    "fun_rate": (r"""
+Consider the system
+\begin{equation} \dot x = f(x) + u, \end{equation}
+where $x\in\mathbb{R}$ is the state, $u\in\mathbb{R}$ is the input and $f(x)$ is a smooth function. Let
+\begin{equation} z = x + f(x). \end{equation}
+Then
+\begin{equation} \dot z = f(x) + u. \tag{T} \end{equation}
+""", ("proved",)),
+    "fun_prop": (r"""
+Consider the system
+\begin{equation} \dot x = -f(x), \end{equation}
+where $x\in\mathbb{R}$ is the state and $f(x)$ is a smooth function. The function lies in the first and third
+quadrant. Let
+\begin{equation} V = \frac12 x^2. \end{equation}
+Then
+\begin{equation} \dot V \le 0. \tag{T} \end{equation}
+""", ("refuted", "proved")),
+    "fun_prop3": (r"""
+Consider the system
+\begin{equation} \dot x = -f(x), \end{equation}
+where $x\in\mathbb{R}$ is the state and $f(x)$ is an odd increasing function. Let
+\begin{equation} V = \frac12 x^2. \end{equation}
+Then
+\begin{equation} \dot V \le 0. \tag{T} \end{equation}
+""", ("refuted",)),
+    "fun_pos": (r"""
+Consider the system
+\begin{equation} \dot x = -g(x) x, \end{equation}
+where $x\in\mathbb{R}$ is the state and $g(x)$ is a positive function. Let
+\begin{equation} V = \frac12 x^2. \end{equation}
+Then
+\begin{equation} \dot V \le 0. \tag{T} \end{equation}
+""", ("refuted",)),
+    "mode": (r"""
+Consider the system
+\begin{equation} \dot x = -\sigma x, \end{equation}
+where $x\in\mathbb{R}$ is the state and $\sigma$ is the switching signal. Then
+\begin{equation} \sigma^2 = \sigma. \tag{T} \end{equation}
+""", ("refuted",)),
+    "prob": (r"""
+Let $y\in\mathbb{R}$ and let $p$ be the probability of a loss. Let $z = y + p$. Then
+\begin{equation} p \le 1. \tag{T} \end{equation}
+""", ("refuted",)),
+    "mass": (r"""
+Consider the car
+\begin{equation} m \dot v = u - c v, \end{equation}
+where $v\in\mathbb{R}$ is the speed, $u\in\mathbb{R}$ is the force, $m$ is the mass and $c$ is the friction
+coefficient. Let
+\begin{equation} V = \frac{m}{2} v^2. \end{equation}
+Then
+\begin{equation} \dot V \le u v. \tag{T} \end{equation}
+""", ("refuted",)),
+    "nonzero": (r"""
+Consider the system
+\begin{equation} \dot x = b u, \end{equation}
+where $x\in\mathbb{R}$ is the state, $u\in\mathbb{R}$ is the input and $b\neq 0$ is a known constant. Let
+$c\in\mathbb{R}$. Then
+\begin{equation} b > 0. \tag{T} \end{equation}
+""", ("proved",)),
 }

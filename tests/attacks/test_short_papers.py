@@ -10,7 +10,8 @@ from workbench.proof.latex.rows import ROWS, RowsFile, load_record
 PROVED = {
     "leakage": ("5", "6", "7", "8", "9"), "model_reference": ("6", "8"), "observer": ("6", "7", "9"),
     "known_function": ("4", "6"), "integral_action": ("4", "6"), "backstepping": ("5", "6"), "input_to_state": ("2",),
-    "pendulum": ("6", "7"), "sliding_mode": ("5",)}
+    "pendulum": ("6", "7"), "sliding_mode": ("5",), "robust": ("4", "7", "8"), "disturbance_observer": ("4", "5"),
+    "motor": ("4",)}
 # What a paper prints wrongly instead, and the lines that are false then; a last one that is true all the same.
 WRONG = (
     ("leakage", r"\frac{1}{2k} D^2", r"\frac{1}{4k} D^2", ("6",), "8"),
@@ -18,6 +19,7 @@ WRONG = (
     ("model_reference", r"-\gamma_r r e", r"-\gamma_r x e", ("8",), "6"),
     ("observer", "= -l_1(1+l_2)", "= -l_1 l_2", ("9",), "7"),
     ("known_function", r"= \gamma e f(x), \end", r"= -\gamma e f(x), \end", ("6",), "4"),
+    ("disturbance_observer", "-l z - l(l x + a x + b u)", "-l z - l(a x + b u)", ("4", "5"), ""),
     ("sliding_mode", r"-(\eta - \bar d)|s| \label", r"-(\eta + \bar d)|s| \label", ("5",), ""))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from fractions import Fraction
 from functools import lru_cache
 
 from workbench.paper.source import forms, vocabulary
@@ -12,7 +13,7 @@ from workbench.paper.source.passages import Word
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.read import read_line
 from workbench.proof.latex.sides import letters_of_text
-from workbench.proof.latex.tree import Group, Letter, Line, Node, Product
+from workbench.proof.latex.tree import Group, Letter, Line, Node, Number, Product
 
 _TIME = re.compile(r"(?:\\forall\s*)?t\s*(?:(?:\\geq?|\\geqslant|>)\s*(?:0|t_0|t_\{0\})|\\in\s*\[0,\s*\\infty\)|"
                    r"\\(?:to|rightarrow)\s*\+?\s*\\infty)?")
@@ -77,10 +78,17 @@ def _class_of(line: Line, formula: str, real: bool) -> str:
     if real or any(one not in ((), (",",)) for one in line.separators):
         return "?"
     heads = [chain.sides[0] for chain in line.chains]
+    if len(heads) == 1 and _is_letter(heads[0]) and line.chains[0].signs == ("!=",) and (
+            line.chains[0].sides[1] == Number(Fraction(0))):
+        return forms.NONZERO
     if all(map(_is_letter, heads)) and len([*kinds_in(formula)]) == len(heads):
         return forms.SIGN
+    return _relation_class(formula, len(line.chains))
+
+
+def _relation_class(formula: str, chains: int) -> str:
     values, rates = values_and_rates(formula)
-    if len(rates) == 1 and not values and len(line.chains) == 1:
+    if len(rates) == chains == 1 and not values:
         return forms.MOVES
     if len(values) == 1 and all(letters_of_text(right) - {letter} for letter, right in values.items()):
         return forms.DEFINES

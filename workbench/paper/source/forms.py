@@ -14,15 +14,17 @@ from workbench.paper.source.phrases import Grammar
 
 DISPLAY, REFERENCE = "$$", "#"
 LETTERS, REAL, SIGN, DEFINES, RELATION = "$letters", "$real", "$sign", "$defines", "$relation"
-MOVES, TENDS = "$moves", "$tends"
+MOVES, TENDS, NONZERO = "$moves", "$tends", "$nonzero"
 VALUE, TIME = "$value", "$time"
 KINDS = {"LETTERS": (LETTERS,), "REAL": (REAL,), "SIGN": (SIGN,), "RELATION": (RELATION, DEFINES, MOVES),
-         "LIMIT": (RELATION,), "MOVES": (MOVES,), "TENDS": (TENDS,), "VALUE": (VALUE,), "DEFINES": (DEFINES,),
-         "TIME": (TIME,), "DISPLAY": (DISPLAY,), "REF": (REFERENCE,), "VALUES": (LETTERS, VALUE, REFERENCE)}
+         "LIMIT": (RELATION,), "MOVES": (MOVES,), "TENDS": (TENDS,), "NONZERO": (NONZERO,), "VALUE": (VALUE,),
+         "DEFINES": (DEFINES,), "TIME": (TIME,), "DISPLAY": (DISPLAY,), "REF": (REFERENCE,),
+         "VALUES": (LETTERS, VALUE, REFERENCE)}
 # What is told of a sentence: where it states facts, what it claims, gives, defines or supposes, and what restricts it.
 KEPT = ("fact", "claimed", "stated", "given", "defined", "supposed", "restricts", "restricts_bare", "then", "held",
         "value", "clause", "unsigned", "judged", "inset", "holds",
-        "laid", "bounded", "suits", "limit", "moved")
+        "laid", "bounded", "suits", "limit", "moved",
+        "quantified", "both")
 _RULES = r"""
 sentence = <lets> <after>* | <aims> | <moves_plant> | <suits> | <bare> | <lays> | <declares> | <if_then> | <supposes> |
     <leads> :? | <asserts> | <concerns> | <invites> |
@@ -40,13 +42,13 @@ bare = <laid> [,? [where | with | in which] <declared> [<andmore> <declared>]*]+
 lays = [with | let | where] <declared> [<andmore> <declared>]* ,? <laid>
 laid = <shown>
 # what a claim begins with
-opener = CONNECTIVE ,? | in addition ,? | as a [result | consequence] ,? | in [particular | turn | fact | total] ,? |
-    in [matrix | compact | vector | component] [form | notation] ,? | in [the | this | our]
-    [first | second | third | next | last | final | following]? [step | stage] ,? | at this [point | stage | step] ,? |
-    as [a | the] [first | second | third | next | last | final] step ,? | on the other hand ,? | <reason> ,? | for
-    [this | the] [purpose | end | reason] ,? | to this end ,? | [note | observe | recall | notice] that | of course ,? |
-    so that | this way ,? | that is , | namely ,? | for [simplicity | brevity | convenience | clarity] ,? | in what
-    follows ,? | [in order]? to AIM <things> ,? | to see this ,? | <sure_of>
+opener = CONNECTIVE ,? | in this [paper | section | note | work | article] ,? | in addition ,? | as a [result |
+    consequence] ,? | in [particular | turn | fact | total] ,? | in [matrix | compact | vector | component] [form |
+    notation] ,? | in [the | this | our] [first | second | third | next | last | final | following]? [step | stage] ,?
+    | at this [point | stage | step] ,? | as [a | the] [first | second | third | next | last | final] step ,? | on the
+    other hand ,? | <reason> ,? | for [this | the] [purpose | end | reason] ,? | to this end ,? | [note | observe |
+    recall | notice] that | of course ,? | so that | this way ,? | that is , | namely ,? | for [simplicity | brevity |
+    convenience | clarity] ,? | in what follows ,? | [in order]? to AIM <things> ,? | to see this ,? | <sure_of>
 reason = [by | from | using | via | through | with | under | upon | along | considering | according to] <things> | [in
     view of | in light of | due to | because of | thanks to | owing to | by virtue of | motivated by | by means of |
     with the help of | with the aid of | based on | on the basis of | as a consequence of | on account of | by use of
@@ -66,13 +68,14 @@ restricts = [since | because | as | noting that | observing that | recalling tha
     <related> [[, | and | , and] <related>]* [holds | hold]?
 relates_to = <related> | <list> [is | are] [<adjectives> | <kind>]
 related = RELATION | SIGN
-quantified = for [all | every | each | any] [times | instants | real | VALUENOUN]* [time | TIME | LETTERS | REAL] [[,
-    | and | , and] [all | every | each | any]? [TIME | LETTERS | REAL]]*
+quantified = for [all | every | each | any] [times | instants | real | VALUENOUN]* [time | TIME | LETTERS | REAL |
+    SIGN] [[, | and | , and] [all | every | each | any]? [TIME | LETTERS | REAL | SIGN]]* | for REAL [[, | and | ,
+    and] [REAL | SIGN]]*
 # what is spoken of
 things = <thing> [[, | and | , and | as well as | together with | with | , with] <thing>]*
 thing = <part> [[of | for | along | to | with respect to | in | on] <part>]*
 part = DETERMINER? [MODIFIER | NOUN | NAME]* [NOUN | NAME | LETTERS | VALUE | REAL | REF | TIME] [LETTERS | VALUE |
-    REAL | <sure>]? REF? | both sides | this | these | REF [, REF]* [, ]? and REF | REF [to | -] REF
+    REAL | <sure>]? REF? | both sides | this | these | REF [, REF]* [, ]? and REF | REF [to | - | - - | –] REF
 derived = DETERMINER? FOLLOWING* DERIVED VALUES? [[of | for | along | to | with respect to | in | on] <part>]*
 # what is claimed
 saying = <claimed> | <stated> | <given> | <concludes> | <defines> | <named>
@@ -137,7 +140,7 @@ declares = [throughout [the | this] [paper | note | section | work | thesis]? ,?
     denote by | we write]? <declared> [<andmore> <declared>]* | [it | one | this] has <fact> [<andmore> <fact>]* |
     <opener>* <inline> [<andmore> [<inline> | <declared> | <given>]]* <after>* | let <declared> [<andmore>
     <declared>]* <andmore> <inline>]
-taking = for <part> <value> ,?
+taking = [for | with] <part>? <value> ,?
 inline = [let | we? ADVERB* DEFINE]? [<thing> | the error | the errors]? [be | as | by | is | are | <is>]? <value>
     [[of | for | with] <fact> | [be | denote | denotes | represent]? <kind>]?
 value = DEFINES
@@ -151,9 +154,9 @@ unsigned = <list> <be> not <adjectives> | <list> <be> <kind>? [positive | negati
 fact = <list> <be> <kind> | <kind> <list> | <kind> <list> <be> <kind> | <kind> <list> vary | <kind> <be> <list> |
     <kind> <be> <adjectives> | <list> <be> <adjectives> | <list> | <list> <kind> | <list> vary | <list> [as | for]
     <kind> | <kind> <list> <be> <adjectives>
-both = <list> <be> <kind> and <kind> , respectively
+both = <list> <be> <kind> [, <kind>]* ,? and <kind> , respectively
 list = <letter> [[, | and | , and] <letter>]*
-letter = LETTERS | REAL | SIGN | TIME
+letter = LETTERS | REAL | SIGN | TIME | NONZERO
 sure = SIGN
 be = [is | are | be | being | denotes | denote | denoting | represents | represent | stands for | stand for | means |
     designates]
@@ -170,9 +173,9 @@ assumed = [we assume that | it is assumed that | assume that | suppose that | th
 relates = RELATION | <fact> | <shown>
 # a relation that is claimed within the text, what is said of a motion, what is going to be done
 asserts = <opener>* [<say> that?]? <held> [<holds> | [by | from | since | for] <things>]?
-concerns = <opener>* [[<signals> | TENDS [as TIME]? | <things> <moves>] [[, | and | , and] [<things>? <moves> | TENDS
-    [as TIME]?]]* | <judged> [,? <because>]?] | DETERMINER [MODIFIER | NOUN]* [of | with] [MODIFIER | NOUN]* NOUN
-    <inset> <travels>
+concerns = <opener>* [[<signals> | TENDS [as TIME]? | <things> <moves>] [[, | and | , and] CONNECTIVE? [<things>?
+    <moves> | TENDS [as TIME]?]]* | <judged> [,? <because>]?] | DETERMINER [MODIFIER | NOUN]* [of | with] [MODIFIER |
+    NOUN]* NOUN <inset> <travels>
 travels = [moves | runs | travels | slides | rolls | rotates | swings] [on | along | in | over | about | around]
     <things>
 judged = <things> [is | are] ADVERB* <adjectives> | [this | it | which] is ADVERB* [immediate | clear | obvious |
@@ -180,9 +183,10 @@ judged = <things> [is | are] ADVERB* <adjectives> | [this | it | which] is ADVER
 because = [since | because | as | by] [<related> [and <related>]* | <things> [[is | are] <adjectives>]?]
 signals = [all | the]? [all | of]? [the]? [signals | states | variables] [[in | of] <things>]? [are | remain] MANNER*
     bounded
-moves = [is | are] reached in [finite | fixed] time | [does | do] not [increase | grow] MANNER* | [is | are] MANNER*
-    [STABLE | attractive | bounded | invariant | passive] | [converge | converges | tend | tends] MANNER* to [zero |
-    the origin | <things>] MANNER* [as TIME]? | [decreases | increases | decrease | increase | vary | decays] MANNER*
+moves = [is | are] [nonincreasing | non-increasing | decreasing] | [is | are] reached in [finite | fixed] time | [does
+    | do] not [increase | grow] MANNER* | [is | are] MANNER* [STABLE | attractive | bounded | invariant | passive] |
+    [converge | converges | tend | tends] MANNER* to [zero | the origin | <things>] MANNER* [as TIME]? | [decreases |
+    increases | decrease | increase | vary | decays] MANNER*
 invites = consider [now | again]? <things> | [let us | we] ADVERB* [compute | calculate | expand | differentiate |
     analyse | analyze | study | estimate | bound] <things>? | this [completes | concludes | ends | proves |
     establishes] [the | our] [proof | lemma | theorem | result | statement]

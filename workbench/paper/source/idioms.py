@@ -39,6 +39,11 @@ def plainly(words: Sequence[Word]) -> tuple[Word, ...]:
         if length:
             found += [replace(words[at], text=text, end=words[at + length - 1].end) for text in said]
             at += length
+        elif words[at].text == "-" and found and found[-1].kind == "reference":  # (3)--(5)
+            after = at + 1 + (at + 1 < len(words) and words[at + 1].text == "-")
+            is_range = after < len(words) and words[after].kind == "reference"
+            found.append(replace(words[at], text="to", kind="word") if is_range else words[at])
+            at = after if is_range else at + 1
         elif texts[0] in ("e.g.", "see") and [word.kind for word in words[at + 1:at + 2]] == ["cite"]:
             at += 2
         elif words[at].kind == "cite" and found and found[-1].text in (*NAMES, *DERIVED, *TEXT, "see", "e.g.", "in"):

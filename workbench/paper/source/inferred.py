@@ -22,7 +22,8 @@ from workbench.proof.latex.sides import letters_of_text, moving_sides, sides_of
 _NO_REAL = re.compile(
     r"\b(?:integers?|natural|complex|matri(?:x|ces)|vectors?|ind(?:ex|ices)|orders?|degrees?|dimensions?|numbers? of|"
     r"binary|boolean|logical|probabilit\w+|modes?|signs?|functionals?|operators?|sequences?|sets?|phasors?|switch\w*|"
-    r"fractions?|ratios?|percentages?|negative|nonzero|non-zero|small\w*|large\w*|unit)\b", re.IGNORECASE)
+    r"fractions?|ratios?|percentages?|negative|nonzero|non-zero|not|definite|semidefinite|small\w*|large\w*|unit)\b",
+    re.IGNORECASE)
 
 
 def letters_with_what_follows(rows: list[RowEntry], facts: str, text: str) -> dict[str, LetterEntry]:

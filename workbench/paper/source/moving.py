@@ -20,7 +20,7 @@ PLANTS = _words("""
     rectifier oscillator beam ball plate mass integrator mass-spring-damper heater room building
     house boiler furnace oven exchanger incubator greenhouse freezer refrigerator column bioreactor fermenter chemostat
     population epidemic microgrid grid gyroscope telescope disk disc hovercraft unicycle
-    segway maglev levitation ball-and-beam drivetrain powertrain drive arm
+    regression segway maglev levitation ball-and-beam drivetrain powertrain drive arm
 """)
 # What is said of a plant that is still the same one: what it is made of, and what its equation looks like.
 LIKE = _words("""
@@ -30,7 +30,8 @@ LIKE = _words("""
     dc ac permanent-magnet synchronous induction brushless boost buck buck-boost lc rc rl rlc double single spring-mass
     mass-spring strict-feedback control-affine affine integrator water liquid heat stirred well-stirred batch
     underactuated wheeled mobile magnetic rigid bilinear autonomous nonautonomous time-varying uncertain
-    single-input single-state two-state stirred-tank cascade freight passenger high-speed railway lumped electronic
+    two-tank coupled-tank single-input single-state two-state stirred-tank cascade freight passenger high-speed
+    railway lumped electronic
     state-space input-output governing
 """)
 # The loop of the plant and its law.

@@ -44,8 +44,9 @@ class Reading:
     shown: for each of its displays whether it is claimed, stated of what follows, given, defined, or supposed; bare
     where no word stands with it. facts: what it says of letters, as printed. tied: displays that it says of some values
     alone. restricted: the letters of what it supposes. limits: bounds of constants and signals, for the whole paper.
-    letters: those of its formulas. unknown: the words that are
-    not understood. beyond: where it shows and says nothing, those by which it may tell that something else acts.
+    quantified: what it says of the letters of all of which it claims something. letters: those of its formulas.
+    unknown: the words that are not understood. beyond: where it shows and says nothing, those by which it may tell that
+    something else acts.
     """
 
     shown: Mapping[int, str] = field(default_factory=dict)
@@ -53,6 +54,7 @@ class Reading:
     tied: frozenset[int] = frozenset()
     restricted: frozenset[str] = frozenset()
     limits: tuple[str, ...] = ()
+    quantified: tuple[str, ...] = ()
     letters: frozenset[str] = frozenset()
     unknown: tuple[str, ...] = ()
     beyond: tuple[str, ...] = ()
@@ -167,10 +169,15 @@ def _said(words: Sequence[Word], found: Sequence[tuple[str, int, int]], body: st
     facts += [f"{DEFINE}{body[words[start].start:words[end - 1].end]}" for rule, start, end in found if rule == "value"]
     facts += [f"{MOVE}{body[word.start:word.end]}" for rule, start, end in found if rule == "moved"
               for word in words[start:end] if word.kind == "math"]
+    facts += [f"${word.text}$" for rule, start, end in found if rule == "both" for word in words[start:end]
+              if word.kind == "math" and formula_class(word.text) in (forms.REAL, forms.SIGN)]
     facts += [" and ".join(f"${word.text}$" for word in words[start:end] if formula_class(word.text) == forms.LETTERS)
               + " are constants" for rule, start, end in found if rule == "suits"]
     limits = [word.text for rule, start, end in found if rule == "limit" for word in words[start:end]
-              if word.kind == "math"] if {*said.values()} <= {*GIVING} else []
+              if word.kind == "math"]
+    limits += [word.text for rule, start, end in found if rule in ("fact", "both") for word in words[start:end]
+               if word.kind == "math" and formula_class(word.text) == forms.NONZERO]
+    limits = limits if {*said.values()} <= {*GIVING} else []
     if laid and not any(re.search(r"[A-Za-z]{3}|\\in", fact.split("$")[0]) or r"\in" in fact for fact in facts):
         return Reading(said, (), frozenset(said), letters=letters)  # with $z > 0$ alone, of such a z
     restricted = {letter for rule, start, end in found if rule in ("held", "then", "supposed", "unsigned", "judged")
@@ -178,7 +185,9 @@ def _said(words: Sequence[Word], found: Sequence[tuple[str, int, int]], body: st
     bare = [(rule, start, end) for rule, start, end in found
             if rule == "fact" and not _is_taken(words[start:end], defines)]
     bare += [one for one in found if one[0] == "limit" and not limits]
-    return Reading(said, tuple(facts), _tied(words, found, bare), frozenset(restricted), tuple(limits), letters)
+    every = tuple(word.text for rule, start, end in found if rule == "quantified" for word in words[start:end]
+                  if word.kind == "math" and formula_class(word.text) in (forms.REAL, forms.SIGN))
+    return Reading(said, tuple(facts), _tied(words, found, bare), frozenset(restricted), tuple(limits), every, letters)
 
 
 def _is_taken(words: Sequence[Word], defines: bool) -> bool:

@@ -10,6 +10,7 @@ from workbench.paper.source.forms import NOUNS
 from workbench.paper.source.given import RATE, Gift, given_within, letter_of
 from workbench.paper.source.idioms import plainly
 from workbench.paper.source.leading import as_led_to
+from workbench.paper.source.letters import kinds_in, letters_said
 from workbench.paper.source.naming import named, of_another_value
 from workbench.paper.source.narrowing import background
 from workbench.paper.source.passages import Passages, Sentence, printed
@@ -23,6 +24,7 @@ from workbench.proof.latex.sides import left_of, letters_of_text
 LOCAL = ("theorem", "lemma", "proposition", "corollary", "remark", "example", "proof", "note", "claim", "property",
          "fact", "problem")
 BEHIND = 2  # paragraphs behind a statement that may go on with what it supposes
+_SAID = {"real": r"\in \mathbb{R}", "positive": "> 0", "nonnegative": r"\ge 0"}
 # Words of an assumption's title beside those that are understood.
 TITLES = {"matching", "condition", "conditions", "persistence", "excitation", "growth", "smoothness", "sector",
           "existence", "controllability", "observability", "detectability", "stabilizability", "regularity",
@@ -97,9 +99,23 @@ class SaidText:
 
     def facts(self) -> str:
         """What the whole text says of letters, for the whole paper."""
-        return "\n\n".join(f"{fact}." for sentence, reading in zip(self.passages.sentences, self.readings, strict=True)
-                           for fact in reading.facts if not self.local(sentence) or (
-                               fact.startswith(DEFINE) and self._proves(sentence)))
+        facts = [fact for sentence, reading in zip(self.passages.sentences, self.readings, strict=True)
+                 for fact in reading.facts if not self.local(sentence) or (
+                     fact.startswith(DEFINE) and self._proves(sentence))]
+        return "\n\n".join(f"{fact}." for fact in (*facts, *self._quantified(facts)))
+
+    def _quantified(self, facts: Collection[str]) -> Iterator[str]:
+        """What claims say of the letters of all of which they speak, where nothing else is said of those anywhere."""
+        told = {letter for fact in facts for letter in letters_said(fact)}
+        told |= {letter_of(gift.letter) for gift in self.gifts}
+        kinds: dict[str, set[str]] = {}
+        for reading in self.readings:
+            for formula in reading.quantified:
+                for letter, kind in kinds_in(formula):
+                    kinds.setdefault(letter, set()).add(kind)
+        for letter, found in kinds.items():
+            if letter not in told and len(found) == 1:
+                yield rf"${letter} {_SAID[found.pop()]}$"
 
     def _defines(self, gift: Gift) -> bool:
         """Whether a sentence defines the letter to which it gives a value."""

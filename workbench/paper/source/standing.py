@@ -202,7 +202,7 @@ class Text(SaidText):
         given = [letter for one in self.readings[at].shown for letter in self.formulas[one].gives]
         moved = [letter for letter in given if letter.startswith(RATE)]
         claimed = {*self.readings[at].shown.values()}.isdisjoint(GIVING)
-        marked = claimed or not moved or any(map(is_marked, moved)) or bool(
+        marked = claimed or not moved or any(map(is_marked, given)) or bool(
             _NAMED & {word.text for word in sentence.words if word.kind == "word"})
         for heading in sentence.place.headings:
             unknown = heading_unknown(self.passages.headings[heading], marked)

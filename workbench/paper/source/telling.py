@@ -23,7 +23,8 @@ _TELLING = words_of("""
     proved proven shown derived computed analysed analyzed studied investigated established presented verified
     obtained summarized used needed proofs claim claims statement statements result results
     stability boundedness convergence performance passivity derivative derivatives inequality inequalities
-    identity lemma theorem proposition corollary remark definition section sections subsection appendix figure
+    identity lemma lemmas theorem theorems proposition corollary remark definition section sections subsection
+    appendix figure
     table paper note lecture main following next last previous above below tool tools young young's lyapunov
     lyapunov's square squares rule chain time trajectories solutions stable asymptotically exponentially globally
     uniformly converges converge bounded origin zero tends positive definite semidefinite nonnegative smooth

@@ -64,6 +64,7 @@ KINDS = (
     (LAWS, LAWS | OF_LAWS | moving.PLANTS | UPDATES | {"lyapunov"}),
     (FUNCTIONS, FUNCTIONS | OF_FUNCTIONS), (ERRORS, ERRORS | OF_ERRORS | moving.PLANTS),
     (NUMBERS, NUMBERS | OF_NUMBERS), (SIGNALS, SIGNALS | OF_SIGNALS),
-    (moving.BESIDE, OF_ERRORS | moving.LIKE | {"luenberger", "linear", "high-gain"}),
+    (moving.BESIDE, OF_ERRORS | moving.LIKE | _words(
+        "luenberger linear high-gain disturbance gradient least-squares adaptive")),
     (moving.FILTERS, moving.LIKE | {"low-pass"}))
 OF_THEM = frozenset().union(*(kinds for _, kinds in KINDS))
