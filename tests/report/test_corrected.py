@@ -71,6 +71,8 @@ def test_an_assumption_is_not_met_and_what_is_implied_does_not_hold():
         assert verdict_sentence(next(f for f in findings(rows[:1]))).startswith(says)
     rows = changed("4", {"origin": "implied"})
     assert verdict_sentence(findings(rows)[1]).startswith("What the text implies at equation (4), “the line 4”, does")
+    broken = changed("4", {"origin": "implied"}, verdict="violated")
+    assert "“the line 4”, does not hold at the printed numbers" in verdict_sentence(findings(broken)[1])
 
 
 def test_what_fails_only_as_extracted_is_not_counted_as_refuted():
