@@ -132,9 +132,9 @@ def between_comparison_functions() -> Goal:
 start_error = sp.Symbol("e_1_0", real=True)
 
 
-@paper.claim("lemma1.0", "The stated initial state is inside the constraint", "condition", r"|e_1(0)| < k", "proved",
+@paper.claim("lemma1.0", "The stated initial state is inside the constraint, where the desired curve starts at 0", "condition", r"|e_1(0)| < k", "proved",
              where={"e_1(0)": start_error}, at={start_error: Fraction(0), k: stated_k},
-             note="x_1(0) = 0 is stated, and the desired curve of a run from a station starts at 0.")
+             note="x_1(0) = 0 is stated; x_d(0) stands in Figure 3 alone and is taken as 0.")
 def starts_inside() -> Goal:
     """At the stated initial state and k."""
     return Goal((less(sp.Abs(start_error), k),))
