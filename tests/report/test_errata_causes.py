@@ -64,7 +64,7 @@ def test_what_holds_although_the_text_comes_to_it_through_a_line_that_fails_stan
     slip = _line("6", "x == 4", severity="cosmetic", point={"x": "0"})
     rows = judged([*(d for d in chain() if d.claim.equation != "6"), slip, *holding])
     text = markdown(errata(rows, CITATION))
-    assert "3 more lines fail and rest on causes. One more line holds, but the text's way to it passes" in text
+    assert "3 more lines fail and rest on causes. One headline statement holds, but the text's way to it passes" in text
     held = text[text.index("## What holds as it stands"):text.index("## Evidence")]
     assert "stands\n\n- Section 3: equation (8).\n" in held  # a slip on the way changes nothing
     assert "## What holds, but not by the way of the text\n\n- Section 3: equation (7).\n" in held

@@ -65,8 +65,8 @@ def _how_many(causes: int, lines: int, rest: Sequence[Finding]) -> str:
     failing = len(rest) - holding
     more = {0: "", 1: " One more line fails and rests on a cause."}.get(
         failing, f" {failing} more lines fail and rest on causes.")
-    passes = {0: "", 1: " One more line holds, but the text's way to it passes through a cause."}.get(
-        holding, f" {holding} more lines hold, but the text's way to them passes through a cause.")
+    passes = {0: "", 1: " One headline statement holds, but the text's way to it passes through a cause."}.get(
+        holding, f" {holding} headline statements hold, but the text's way to them passes through a cause.")
     return f"{these}{kinds}.{more}{passes} What shows it all follows behind, by the numbers of the corrections."
 
 
