@@ -119,7 +119,7 @@ def distance_from_barrier() -> Goal:
                      "delta))), and alpha^2 e_1^2 and the square of the speed's error x_2 - x_d' = e_2 - alpha e_1 are at most what theorem1.speed says; for "
                      "constant coefficients, which the theorem calls uncertain, and gains with mu > 0. eps* in l bounds eps wherever the train is (7.bounded), and so contains f*: the "
                      "smaller one of (8) is of Theta_x, and that x stays there is not shown.",
-             note="It stands by V' <= -mu V + l (51.whole, along the loop itself) and the limit of (52). It does not need Assumption 1, "
+             note="It stands by V' <= -mu V + l (51.whole, along the loop itself) and the limit of (52). It needs neither Assumption 1, nor "
                   "strictness in Lemma 2, nor the moment T of (52), nor that the network approximates well. How small the "
                   "neighbourhood is at the stated gains is another matter, see 53.stated.")
 def theorem_1() -> Goal:

@@ -54,7 +54,7 @@ fast_mode = float(repaired_gains[lambdas[2]]) ** 0.5 * cruise**2  # rad/s
                                   "speed error of at most 0.26 m/s, with which |e_1| < k makes |e_2| <= 0.26 + alpha k; both sides are squared and times mu. eps* is the least that Table 1 allows "
                                   "(7.error), and W* = 0, in the paper's favour.",
              at={**best_case, k: stated_gains[k]}, repair={**repaired_gains, k: stated_gains[k]},
-             note=f"mu = {float(smallest_rate):.0e}/s and l/mu = {level_at_best:.1f}: in the limit Theorem 1 says |e_2| <= {ultimate_speed_bound:.1f} m/s, and of e_1 nothing beyond the "
+             note=f"mu = {float(smallest_rate):.5f}/s and l/mu = {level_at_best:.1f}: in the limit Theorem 1 says |e_2| <= {ultimate_speed_bound:.1f} m/s, and of e_1 nothing beyond the "
                   "constraint (theorem1.stated). From the stated start (52) gives over 1800 s |e_2| <= 1.51 m/s and |e_1| <= 0.199 m (53.start). So the reported accuracy does not come from the "
                   f"theorem. The gains at which it holds are for W*^2 <= 1/20; their price is a fast mode of the estimate, sqrt(lambda_3) v^2 = {fast_mode:.0f} rad/s at {cruise:.1f} m/s.")
 def bound_explains_speed_error() -> Goal:
