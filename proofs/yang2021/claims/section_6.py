@@ -124,8 +124,8 @@ def barrier_at(error_m: float) -> float:
                      "and no braking beyond 3 m/s^2, a limit of ours, if it is ahead. In the paper's favour, and not printed: estimates that sum up to 0 to 1 m/s^2, a desired acceleration "
                      "of at most 1 m/s^2, and the largest speed error, 0.26 m/s, in the helpful direction.",
              note=f"The last term of (33) alone is {barrier_at(0.142):.1f} m/s^2 at 0.142 m, {barrier_at(0.178):.1f} at the 0.178 m of Table 2 and {barrier_at(0.2):.0f} at the 0.2 m of POCRAC, "
-                  "against inputs of about 0.48 and 0.6 m/s^2 that the text tells and a resistance of some 0.6 m/s^2 that is to be estimated. Behind, only estimates that are 4 m/s^2 too "
-                  "small would make up for it; ahead, the train would brake as no train does. Near 0 the last term is a spring of 1/k^2, which balances the "
+                  "against inputs of about 0.48 and 0.6 m/s^2 that the text tells and a resistance of some 0.6 m/s^2 that is to be estimated. With estimates of 0 to 1 m/s^2 and a "
+                  "desired acceleration of up to 1 m/s^2, taken here, a train that is behind is commanded more than 4 m/s^2 too much, and one that is ahead to brake as no train does. Near 0 the last term is a spring of 1/k^2, which balances the "
                   f"{float(STATED_F_STAR)} m/s^2 of Table 1 at {float(STATED_F_STAR) * 1000 * float(stated_gains[k])**2:.0f} mm: the reported errors fit another loop or other gains.")
 def printed_figures_fit() -> Goal:
     """The smallest command at the negative error, the largest at the positive one."""
