@@ -116,7 +116,7 @@ V_rest = e_2**2 / 2 + V_weights + V_estimates
 all_squares = e_2**2 + over_neurons(W_tilde**2) + sum((s**2 for s in tildes), sp.Integer(0))
 
 
-@paper.claim("lemma1.2", "Hypothesis 2 of Lemma 1: V_2 lies between class K-infinity functions", "inequality",
+@paper.claim("lemma1.2", "Hypothesis 2: V_2 lies between class K-infinity functions", "inequality",
              r"\chi_1(\|e_2\|) \leq V_2(e_2) \leq \chi_2(\|e_2\|)", "proved", scope=EVERY_NETWORK,
              where={r"\chi_1(\|e_2\|)": c_low * all_squares, "V_2(e_2)": V_rest, r"\chi_2(\|e_2\|)": c_high * all_squares},
              reading="In Theorem 1 V_2 is all of (38) but V_1, and e_2 stands for (e_2, W-tilde, a-tilde, b-tilde, c-tilde); "

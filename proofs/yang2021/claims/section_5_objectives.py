@@ -56,7 +56,7 @@ def input_bounded_by_v() -> Goal:
                 lemmas=(at_most(e_1**2, k**2),))
 
 
-@paper.claim("objective.stable", "The second objective of section 5: all signals of the closed loop are bounded", "implication",
+@paper.claim("objective.stable", "The second objective of section 5: all signals of the closed loop are bounded, for constant coefficients and mu > 0", "implication",
              r"\text{The FAO is stable; that is, all closed-loop signals are bounded.}", "proved", severity="result", match="words",
              premises=("theorem1.bounded", "theorem1.barrier", "objective.input", "33.bounded"), rests_on=("theorem1.bounded", "theorem1.barrier", "A3", "A4"),
              scope=EVERY_NETWORK,
