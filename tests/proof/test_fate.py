@@ -91,6 +91,17 @@ def test_a_cosmetic_slip_taints_nothing():
     assert rows[1].tainted_by == ()
 
 
+def test_a_slip_on_the_way_to_a_theorem_is_named():
+    def why(*slips):
+        rows = [decided(str(n), "refuted", severity="cosmetic") for n in slips]
+        found = fate(*rows, decided("T", "proved", severity="result", premises=(), rests_on=tuple(map(str, slips))))
+        assert found.word == "stands"
+        return found.why
+    assert why() == "holds, and no line that the text uses to get there fails"
+    assert why(1).startswith("holds, and of the lines that the text uses to get there only equation (1) fails, a slip")
+    assert why(1, 2).endswith("only equations (1) and (2) fail, slips that change no result")
+
+
 def test_taint_runs_along_the_paper_s_chain_not_along_ours():
     rows = with_taint([decided("1", "refuted"), decided("2", "proved", premises=("1",), rests_on=()),
                        decided("3", "proved", premises=(), rests_on=("1",))])

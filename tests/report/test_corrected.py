@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from small_decisions import paper
+from small_decisions import paper, proof
 
 from workbench.proof.paper import collect_papers
 from workbench.report.certificate_latex import name_latex
@@ -71,6 +71,8 @@ def test_an_assumption_is_not_met_and_what_is_implied_does_not_hold():
         assert verdict_sentence(next(f for f in findings(rows[:1]))).startswith(says)
     rows = changed("4", {"origin": "implied"})
     assert verdict_sentence(findings(rows)[1]).startswith("What the text implies at equation (4), “the line 4”, does")
+    broken = changed("4", {"origin": "implied"}, verdict="violated")
+    assert "“the line 4”, does not hold at the printed numbers" in verdict_sentence(findings(broken)[1])
 
 
 def test_what_fails_only_as_extracted_is_not_counted_as_refuted():
@@ -84,6 +86,12 @@ def test_lines_that_are_named_and_stand_nowhere_else_are_written_out():
     referred = text[text.index("## Lines referred to"):text.index("## How to re-check")]
     assert re.findall("^### (.*)$", referred, re.MULTILINE) == ["Equation (7) “the line 7.glyph”"]
     assert "$$\nz_1^2 \\ge 0\n$$" in referred and "**Verdict.** Proved." in referred and "To show:" in referred
+    # A short proof from what is given is told with the numbers of what it takes.
+    terms = [{"coefficient": "1", "factors": [{"assume": 0}]}, {"coefficient": "1", "factors": []}]
+    given = proof("doe2026:7.glyph", "z_1 >= 0", terms, {"z_1": "1"}, ("z_1 >= 1",))
+    text = told([replace(d, certificate=given) if d.claim.equation == "7.glyph" else d for d in rows])
+    referred = text[text.index("## Lines referred to"):text.index("## How to re-check")]
+    assert r"[1]\ z_{1} \ge 1" in referred and "- $z_{1} = [1] + 1$." in referred
     assert "## Lines referred to" not in told(paper())
 
 

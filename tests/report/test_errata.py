@@ -51,6 +51,8 @@ def test_what_a_counterexample_is_given_can_be_followed():
     assert found.beside == ("V = 2",) and set(found.values) == {r"\mathrm{rate} = 0.5", r"\mu = 1", "w = 0"}
     assert counterexample_of({"verdict": "gap", "point": {"w": "0", "V": "2"}, "goal": {
         "assume": ["w <= V"], "show": ["w < 0"]}}).beside == ("V = 2",)
+    assert counterexample_of({"verdict": "gap", "point": {"x_d": "1", "xdot_d": "1"}, "goal": {
+        "show": ["D(x_d) <= 0"], "flow": {"x_d": "xdot_d"}}}).along == ()  # the rate's letter says it
     text = markdown(errata(paper(), CITATION))
     assert "**Under the conditions:**\n\n$$\nz_{2} \\le k\\quad\\text{with}\\ z_{2} = -2\n$$" in text
 

@@ -36,11 +36,12 @@ def chain():
 def test_causes_are_told_before_what_falls_with_them_and_their_evidence_behind():
     text = markdown(errata(chain(), CITATION))
     causes, falling, alone, shown = (text.index(heading) for heading in (
-        "## The causes", "## Lines that fail and rest on them", "## Lines that fail by themselves",
+        "## The causes", "## Lines that fail and rest on them", "## Other lines that fail",
         "## Evidence: the causes"))
     assert causes < falling < alone < shown
     told = text[causes:falling]
-    assert "3 lines fail by themselves, and others rest on them; they are 2 different ones but for" in told
+    assert "Other lines rest on 3 that fail; they are 2 different ones but for" in told
+    assert "3 more lines fail and rest on causes. What" in told
     # (2) says of y what (1) says of x; on (1) rest Theorem 1 and (4).
     assert ("- Corrections 1 and 2: Equation (1) is false as printed; 1 headline statement and 1 other line rest on it."
             "\n") in told
@@ -54,6 +55,27 @@ def test_causes_are_told_before_what_falls_with_them_and_their_evidence_behind()
     # Every correction has its evidence, a cause's line is not printed again there.
     assert [int(n) for n in re.findall(r"^### (\d+)\. ", text[shown:], re.MULTILINE)] == [1, 2, 3, 4, 5, 6, 7]
     assert "**Printed:**" not in text[shown:text.index("### 2. ", shown)] and re.search(r"^ +1  1 ", text, re.MULTILINE)
+
+
+def test_what_holds_although_the_text_comes_to_it_through_a_line_that_fails_stands_apart():
+    holding = [replace(_line(equation, "x**2 >= 1", (on,), severity=severity, point={"x": "0"}), verdict="proved",
+                       certificate=None)
+               for equation, on, severity in (("7", "4", "step"), ("8", "6", "step"), ("theorem2", "7", "result"))]
+    slip = _line("6", "x == 4", severity="cosmetic", point={"x": "0"})
+    rows = judged([*(d for d in chain() if d.claim.equation != "6"), slip, *holding])
+    text = markdown(errata(rows, CITATION))
+    assert "3 more lines fail and rest on causes. One headline statement holds, but the text's way to it passes" in text
+    held = text[text.index("## What holds as it stands"):text.index("## Evidence")]
+    assert "stands\n\n- Section 3: equation (8).\n" in held  # a slip on the way changes nothing
+    assert "## What holds, but not by the way of the text\n\n- Section 3: equation (7).\n" in held
+    assert "Theorem 2" not in held  # its fate is told before
+
+
+def test_a_false_line_comes_before_one_that_does_not_follow():
+    rows = judged([_line("1", "x**2 >= 1", (), "gap", point={"x": "0"}), _line("2", "x**2 >= 2", point={"x": "0"}),
+                   _line("3", "x >= 2", ("1",), "gap", point={"x": "0"}),
+                   _line("theorem1", "x >= 3", ("1", "2"), severity="result", point={"x": "0"})])
+    assert [cause[0].equation for cause in causes_of(findings(rows), rows)] == ["2", "1"]
 
 
 def test_lines_that_only_look_alike_are_two_causes():

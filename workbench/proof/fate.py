@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from workbench.proof.besides import besides
 from workbench.proof.places import places_of, subject_of
-from workbench.proof.premises import holds_in_other_reading, proved_under, with_taint
+from workbench.proof.premises import holds_in_other_reading, proved_under, slips_on_the_way, with_taint
 from workbench.proof.verdict import Decision, Fate
 from workbench.proof.wording import listed
 
@@ -33,15 +33,15 @@ def judged(decisions: Sequence[Decision]) -> list[Decision]:
 
 def fates(decisions: Sequence[Decision]) -> dict[str, Fate]:
     """The fate of every headline claim by id; what they rest on and their mended forms are among the decisions."""
-    under = proved_under(decisions)
+    under, slips = proved_under(decisions), slips_on_the_way(decisions)
     by_id = {d.claim.id: d for d in decisions}
     mended = {d.claim.mends: d for d in decisions if d.claim.mends is not None and under.get(d.claim.id) == ()}
-    return {d.claim.id: _fate(d, by_id, mended.get(d.claim.id), under.get(d.claim.id, ()))
+    return {d.claim.id: _fate(d, by_id, mended.get(d.claim.id), under.get(d.claim.id, ()), slips[d.claim.id])
             for d in decisions if is_headline(d)}
 
 
-def _fate(decision: Decision, by_id: dict[str, Decision], mended: Decision | None,
-          unshown: tuple[str, ...]) -> Fate:
+def _fate(decision: Decision, by_id: dict[str, Decision], mended: Decision | None, unshown: tuple[str, ...],
+          slips: tuple[str, ...]) -> Fate:
     form = f"holds in a mended form, “{subject_of(mended.claim.title)}”" if mended else ""
     by = (mended.claim.id,) if mended else ()
     if decision.verdict == "refuted":
@@ -53,13 +53,20 @@ def _fate(decision: Decision, by_id: dict[str, Decision], mended: Decision | Non
         failing = tuple(line for line in decision.tainted_by if not holds_in_other_reading(by_id[line], by_id))
         where = f"holds where {listed(decision.besides)}, which it does not state," if decision.besides else "holds,"
         if not failing:
-            return Fate("stands", f"{where} and no line that the text uses to get there fails",
-                        tuple(decision.tainted_by))
+            return Fate("stands", f"{where} and {_all_but(slips, by_id)}", tuple(decision.tainted_by))
         titles = {by_id[name].claim.equation: by_id[name].claim.title for name in failing}
         return Fate("stands with corrections", f"{where} but not by the way of the text, {which_uses(titles)}", failing)
     if mended is not None:
         return Fate("stands with corrections", f"{_shortfall(decision, unshown, by_id)}; it {form}", by)
     return Fate("open", _shortfall(decision, unshown, by_id), unshown)
+
+
+def _all_but(slips: Sequence[str], by_id: Mapping[str, Decision]) -> str:
+    """That no line on the text's way fails, or which do without changing anything."""
+    if not slips:
+        return "no line that the text uses to get there fails"
+    fails = "fails, a slip that changes" if len(slips) == 1 else "fail, slips that change"
+    return f"of the lines that the text uses to get there only {_named(slips, by_id)} {fails} no result"
 
 
 def _shortfall(decision: Decision, unshown: tuple[str, ...], by_id: Mapping[str, Decision]) -> str:

@@ -77,12 +77,26 @@ def with_taint(decisions: Sequence[Decision]) -> list[Decision]:
 
     Every claim that one rests on must be among the decisions, and none may rest on itself.
     """
+    found = on_the_way(decisions, counts_as_failure)
+    return [replace(d, tainted_by=found[d.claim.id]) for d in decisions]
+
+
+def slips_on_the_way(decisions: Sequence[Decision]) -> dict[str, tuple[str, ...]]:
+    """By the id of each claim the lines in the paper's chain to it that fail and on which nothing depends; without
+    those that hold in their other reading."""
+    by_id = {d.claim.id: d for d in decisions}
+    return on_the_way(decisions, lambda d: d.verdict in FAILED and not (
+        counts_as_failure(d) or holds_in_other_reading(d, by_id)))
+
+
+def on_the_way(decisions: Sequence[Decision], counts: Callable[[Decision], bool]) -> dict[str, tuple[str, ...]]:
+    """By the id of each claim those in the paper's chain to it that count, in the order of the decisions."""
     by_id = {d.claim.id: d for d in decisions}
     found: dict[str, set[str]] = {}
     for name in _sorter([d.claim for d in decisions], lambda claim: claim.chain).static_order():
         ids = by_id[name].claim.chain
-        found[name] = {i for i in ids if counts_as_failure(by_id[i])}.union(*(found[i] for i in ids))
-    return [replace(d, tainted_by=tuple(other for other in by_id if other in found[d.claim.id])) for d in decisions]
+        found[name] = {i for i in ids if counts(by_id[i])}.union(*(found[i] for i in ids))
+    return {name: tuple(other for other in by_id if other in found[name]) for name in by_id}
 
 
 def proved_under(decisions: Sequence[Decision]) -> dict[str, tuple[str, ...]]:

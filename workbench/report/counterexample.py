@@ -38,6 +38,7 @@ from workbench.report.certificate_latex import (
     rate_latex,
     relation_latex,
 )
+from workbench.report.dots import only_names
 from workbench.report.number_style import Style, style_of, told_apart, value_latex
 from workbench.report.side_values import Enclosed, closed_form, rounded, shown_values
 
@@ -110,11 +111,12 @@ def counterexample_of(certificate: Mapping[str, Any]) -> Counterexample | None:
     every = tuple(starmap(letter_and_value, shown.items())) + tuple(
         (_indexed(name, i), value) for i, row in enumerate(rows, 1) for name, value in row.items())
     given, along, more = _conditions(goal, failing)
+    rates = [rate_latex(name, rate, style) for name, rate in along.items()]
     return Counterexample(relation_latex(failing, style), SIGNS[operator], values + in_sums, others,
                           *shown_values(sides, style, closed), every, False,
                           None if between else _put_in(left, right, certificate["point"], style), None,
                           _telling(given, style),
-                          tuple(rate_latex(name, rate, style) for name, rate in along.items()),
+                          tuple(rate for rate in rates if not only_names(rate)),
                           _together({name: value for name, value in shown.items() if name in more - deciding}))
 
 

@@ -17,7 +17,7 @@ HEADINGS: dict[Gravity, str] = {
     "falls": "Headline statements that fall", "corrected": "Headline statements that stand with corrections",
     "open": "Headline statements that stay open", "step": "Lines that fail and that others rest on",
     "gap": "Lines that do not follow", "alone": "Lines that fail and that nothing else rests on",
-    "cosmetic": "Slips that nothing depends on", "reading": "Readings that the extracted text leaves open"}
+    "cosmetic": "Slips that change no result", "reading": "Readings that the extracted text leaves open"}
 
 
 PRINTED, IMPLIED = "Printed", "Implied, not printed"
@@ -69,8 +69,10 @@ def _words(found: Finding) -> str:
                  "violated": "is not met at the printed numbers", "gap": "does not give what the paper takes from it"}
                 [found.verdict])
     printed = " as extracted" if found.gravity == "reading" else " as printed" if found.origin == "printed" else ""
-    return _verdicts(printed, f",{by_motion}" if motion else "")[found.verdict] if found.origin == "printed" or (
-        found.verdict != "refuted") else f"does not hold{f',{by_motion}' if motion else ''}"
+    if found.origin == "implied" and found.verdict in ("refuted", "violated"):
+        numbers = " at the printed numbers" if found.verdict == "violated" else ""
+        return f"does not hold{numbers}{f',{by_motion}' if motion else ''}"
+    return _verdicts(printed, f",{by_motion}" if motion else "")[found.verdict]
 
 
 def _verdicts(printed: str, motion: str) -> dict[str, str]:

@@ -1,21 +1,22 @@
-"""yang2021, section 2: the train, per unit of mass, and Assumption 1."""
+"""yang2021, section 2: the train, per unit of mass, at rest, and Assumption 1."""
 
 from __future__ import annotations
 
 import sympy as sp
 
-from workbench.proof.claim import D, Goal, at_most, equal
+from workbench.proof.claim import D, Goal, at_most, equal, greater
 from workbench.trains.line_resistance import (
     additional_specific_resistance,
     curvature_per_m,
     grade_permille,
     tunnel_n_per_kn,
 )
-from workbench.trains.train import F, a_0, b_0, c_0, f_add, m, p, single_particle, v
+from workbench.trains.train import F, a_0, a_star, b_0, c_0, f, f_add, m, p, single_particle, u, v
 
 from ..error_dynamics import plant
 from ..laws import x_1, x_2
 from ..paper import paper
+from ..stated_values import stated_davis
 
 newton = single_particle()
 davis = a_0 + b_0 * v + c_0 * v**2
@@ -74,17 +75,35 @@ def newton_per_mass() -> Goal:
                 flow={x: rate.xreplace({v: x_2}) for x, rate in rates.items()})
 
 
+@paper.claim("4.rest", "A train on which no force acts stays where it stands", "identity",
+             r"v = 0,\ u = 0,\ f(x) = 0 \Rightarrow \dot{x}_2 = 0", "refuted", origin="implied", severity="cosmetic", rests_on=("2", "4"),
+             reading="Resistances do not move a train: at rest on level track and without an input the train of (4) stays at rest, at the stated a* = 0.3.",
+             note="(2) is the resistance of a train that runs. At v = 0, where the run of section 6.1 starts, (4) with (2) begins to roll backwards: there the resistance is whatever "
+                  "holds the train, up to a_0. The proof takes (4) as it is.")
+def resistance_at_rest() -> Goal:
+    """The acceleration of (4) at rest, without input and additional resistance."""
+    stated = tuple(equal(s, sp.Rational(v.numerator, v.denominator)) for s, v in stated_davis.items())
+    return Goal((equal(D(x_2), 0),), (equal(x_2, 0), equal(u, 0), equal(f, 0), *stated), {x_2: plant.rates[x_2]})
+
+
 rest_bound = sp.Symbol("gamma", positive=True)
 
 
 @paper.claim("A1", "Assumption 1: the train of (4) is input-to-state stable", "inequality",
              r"\text{The dynamics system of train operation given in Equation (4) is an input-state stable system.}", "refuted",
              match="words", reading="A train that a bounded input holds at rest is, wherever it stands, within a bound gamma that the input alone gives.",
-             note="The position is a pure integral of the speed: held by u = a* - f the train of (4) rests at every x_1, and at any larger constant "
-                  "input that it runs with for ever x_1 grows beyond every bound. Nor is the origin a rest without an input: at the stated a* = 0.3 the "
-                  "train of (4) begins to roll backwards at 0.3 m/s^2. The proof of Theorem 1 does not use Assumption 1, and as it supposes 'all assumptions' it would "
-                  "speak of no train with this one: it should be struck from the hypotheses.")
+             note="The position is a pure integral of the speed. What is shown for gamma = 1 holds for every gamma: held by u = a* - f the train of (4) rests at x_1 = gamma + 1 (A1.every). "
+                  "As Theorem 1 supposes 'all assumptions', it speaks of no train with this one, which should be struck: its proof does not use it.")
 def position_is_bounded() -> Goal:
     """The position of a train at rest in (4)."""
     return Goal((at_most(sp.Abs(x_1), rest_bound),), (equal(x_2, 0), equal(D(x_2), 0)),
                 {x_1: plant.rates[x_1], x_2: plant.rates[x_2]})
+
+
+@paper.claim("A1.every", "A train that rests beyond any bound", "implication",
+             r"x_1 = \gamma + 1,\ x_2 = 0,\ u = a^* - f(x) \Rightarrow \dot{x}_1 = \dot{x}_2 = 0,\ |x_1| > \gamma", "proved", origin="ours",
+             reading="For every gamma > 0; the input is as large for all of them.")
+def rest_beyond_every_bound() -> Goal:
+    """Both rates of (4) there, and how far it is."""
+    return Goal((equal(D(x_1), 0), equal(D(x_2), 0), greater(sp.Abs(x_1), rest_bound)),
+                (equal(x_1, rest_bound + 1), equal(x_2, 0), equal(u, a_star - f)), {x_1: plant.rates[x_1], x_2: plant.rates[x_2]})

@@ -153,11 +153,10 @@ def same_motion() -> Relation:
 
 @paper.claim("10.measured", "The gradient laws use only what is measured", "implication",
              r"u, x_2, \dot{x}_2\ \text{measured} \Rightarrow f(\mathbf{x}) - \hat{f}(\mathbf{x})\ \text{known}", "gap",
-             origin="implied",
+             origin="ours", rests_on=(),
              note="(10)-(15) are driven by f - f-hat, while f is the unknown that the network is there for and a*, b*, c* are "
                   "unknown too. Two trains with other coefficients and another f move alike, so f cannot be told from the "
-                  "motion, not even with the acceleration measured. Theorem 1 does not use these laws: (10) to (15) are no part of "
-                  "the controller, whose weights move by (37).")
+                  "motion, not even with the acceleration measured.")
 def f_is_known() -> Goal:
     """The same input, speed and acceleration mean the same f."""
     return Goal((equal(f_1, f_2),), (same_motion(),))
@@ -166,14 +165,14 @@ def f_is_known() -> Goal:
 one_h = sp.Symbol("h", positive=True)
 
 
-@paper.claim("37.weights", "The weights that (10) and (11) leave as they are rest by (37) too", "implication",
+@paper.claim("37.weights", "The laws of the weights, (10) with (11) and (37), agree", "implication",
              r"\hat{f} = f,\ \Delta w_j = \eta[f - \hat{f}]h_j = 0 \Rightarrow \dot{\hat{W}} = \chi e_2h - \chi\hat{W} = 0", "gap", origin="implied",
-             severity="data", section="5.1",
-             reading="Where the network fits f exactly the step of (10) is zero, whatever length of time it stands for.",
-             note="(10), (11) and (37) each move the same weights, and section 6.1 states eta and the momentum "
-                  "factor of the one beside chi of the other. They are two laws: where the network is exact, (10) leaves the "
-                  "weights as they are and (37) draws them to zero. Which one runs is not said. The proof of Theorem 1 is of (37), which should be named as the "
-                  "law of the weights; (10) to (15) would be no part of the controller.")
+             severity="data", section="6.1",
+             reading="Section 6.1 states eta and the momentum factor of (10) to (15) beside chi of (37) and calls none of them off: laws of the same weights leave these as they are "
+                     "at the same instants. Where the network fits f exactly the step of (10) is zero, whatever length of time it stands for.",
+             note="They are two laws: where the network is exact, (10) leaves the weights as they are and (37) draws them to zero. (10) to (15) also need f, which is unknown (10.measured), "
+                  "and move centers and widths, with which W* would move (8.fixed). Theorem 1 is of (37) with fixed centers and widths: (37) should be named as the law of the weights, "
+                  "and (10) to (15) be no part of the controller.")
 def one_law() -> Goal:
     """The rate of (37) where the step of (10) is zero."""
     error_2 = sp.Symbol("e_2", real=True)

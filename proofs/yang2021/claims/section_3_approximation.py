@@ -6,13 +6,12 @@ import sympy as sp
 
 from workbench.model.law import over_neurons
 from workbench.proof.claim import Goal, at_most, equal
-from workbench.trains.resistance import STANDARD_GRAVITY_MPS2
 from workbench.trains.train import f
 
 from ..error_dynamics import EVERY_NETWORK, STATED_F_STAR, eps_star, epsilon, f_star, f_true, h
 from ..lyapunov import W_star_square
 from ..paper import paper
-from ..stated_values import grade_after, grade_before, rational, section_resistances
+from ..stated_values import grade_after, grade_before, section_resistances
 
 
 @paper.claim("A2", "Assumption 2: f is bounded on the line of Table 1", "condition",
@@ -28,7 +27,6 @@ def resistance_bounded() -> Goal:
 
 f_before, f_after, y_f = sp.symbols("f_before f_after y_f", real=True)
 slope_before, slope_after = sp.symbols("i_before i_after", real=True)
-gravity = sp.Symbol("g_n", positive=True)
 
 paper.definition("7", "The approximation error", r"f(\mathbf{x}) = \mathbf{W}^{*T}\mathbf{h}(\mathbf{x}) + \varepsilon(\mathbf{x})",
                  note="With (8) it says what eps is, whatever f is. That eps is bounded is 7.bounded; how small it can be, 7.continuous.")
@@ -43,24 +41,24 @@ paper.axiom("8", "The best weights exist",
 @paper.claim("7.continuous", "The text before (7): the network approximates f with any precision", "condition",
              r"\text{RBFNN can approximate the unknown nonlinear additional resistance and interference function with any precision in the "
              r"compact working domain}", "violated",
-             at={slope_before: grade_before, slope_after: grade_after, gravity: rational(STANDARD_GRAVITY_MPS2)}, match="words",
-             reading="What continuous functions approximate with any precision is continuous: f does not step at 29,900 m, where by Table 1 the slope goes from 2.5 to "
-                     "-3 per mille and the curve stays as it is. The step is that of the weight's part along the track, with 9.80665 m/s^2, which the paper does not print.",
-             note="f steps by 9.81 times 5.5/1000, some 0.054 m/s^2, so that eps* is at least 0.027 m/s^2 whatever the network is (7.error). What falls is 'any precision' and that eps* "
-                  "is small; (7) is not touched, it says what eps is, nor is Theorem 1, for which any bound will do (7.bounded). Section 3 says it itself at first: 'any smooth function'.")
+             at={slope_before: grade_before, slope_after: grade_after}, match="words",
+             reading="What continuous functions approximate with any precision is continuous, and so is the slope, in per mille, where the curve stays as it is, at 29,900 m of Table 1: "
+                     "what stands before that border stands behind it.",
+             note="f steps there as the slope does, by 9.81 times 5.5/1000 or some 0.054 m/s^2, so that eps* is at least 0.027 m/s^2 whatever the network is (7.error). What falls is 'any "
+                  "precision' and that eps* is small; (7) is not touched, it says what eps is, nor is Theorem 1, for which any bound will do (7.bounded). Section 3 says it itself at "
+                  "first: 'any smooth function'.")
 def resistance_is_continuous() -> Goal:
-    """The step of f at the border with the largest one."""
-    return Goal((equal(gravity * (slope_before - slope_after) / 1000, 0),))
+    """The slope on both sides of the border with the largest step of f."""
+    return Goal((equal(slope_before, slope_after),))
 
 
 one_hidden, other_hidden, one_best, other_best = sp.symbols("h_narrow h_wide W_narrow W_wide", positive=True)
 
 
 @paper.claim("8.fixed", "W* is one and the same while (12)-(15) move centers and widths", "implication",
-             r"W_1h_1 = f = W_2h_2 \Rightarrow W_1 = W_2", "gap", origin="implied", severity="data", rests_on=("12", "13", "14.glyph", "15"),
+             r"W_1h_1 = f = W_2h_2 \Rightarrow W_1 = W_2", "gap", origin="ours", rests_on=(),
              reading="One neuron and one input: h_1 and h_2 are its outputs (5) with two widths, W_1 and W_2 the weights that fit f there.",
-             note="(39) to (41) take the rate of W-tilde for that of W-hat, which needs fixed hidden functions. Where the loop that section 6.1 simulates moves centers and widths "
-                  "by (12) to (15), with its eta and momentum factor, it is not the loop of Theorem 1, which has (37) alone: these laws are no part of the controller.")
+             note="(39) to (41) take the rate of W-tilde for that of W-hat, which needs fixed hidden functions.")
 def best_weight_is_constant() -> Goal:
     """The fitting weight before and after a step of the width."""
     return Goal((equal(one_best, other_best),),
@@ -101,7 +99,8 @@ error_bound_of_f = f_star + (W_star_square + hidden_square) / 2
              where={r"\varepsilon(\mathbf{x})": epsilon, r"\varepsilon^*": error_bound_of_f},
              reading="eps* is f* + (|W*|^2 + H)/2 with H the sum of the squared Gaussians, at most the number of neurons.",
              note="From Assumption 2 alone: f and the Gaussians are bounded everywhere, so the error is, inside the set of (7) "
-                  "or outside. That eps* is small is another matter, see 7.continuous.")
+                  "or outside. This eps* contains f*. The smaller one of (8) is of Theta_x alone, and that x stays there is nowhere shown. That eps* is small is "
+                  "another matter, see 7.continuous.")
 def approximation_error_bounded() -> Goal:
     """|f - W*^T h| for any weights, with |f| <= f*."""
     given = (equal(f, f_true), at_most(sp.Abs(f), f_star), at_most(over_neurons(h**2), hidden_square))

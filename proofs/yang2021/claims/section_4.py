@@ -116,7 +116,7 @@ V_rest = e_2**2 / 2 + V_weights + V_estimates
 all_squares = e_2**2 + over_neurons(W_tilde**2) + sum((s**2 for s in tildes), sp.Integer(0))
 
 
-@paper.claim("lemma1.2", "Hypothesis 2 of Lemma 1: V_2 lies between class K-infinity functions", "inequality",
+@paper.claim("lemma1.2", "Hypothesis 2: V_2 lies between class K-infinity functions", "inequality",
              r"\chi_1(\|e_2\|) \leq V_2(e_2) \leq \chi_2(\|e_2\|)", "proved", scope=EVERY_NETWORK,
              where={r"\chi_1(\|e_2\|)": c_low * all_squares, "V_2(e_2)": V_rest, r"\chi_2(\|e_2\|)": c_high * all_squares},
              reading="In Theorem 1 V_2 is all of (38) but V_1, and e_2 stands for (e_2, W-tilde, a-tilde, b-tilde, c-tilde); "
@@ -132,9 +132,9 @@ def between_comparison_functions() -> Goal:
 start_error = sp.Symbol("e_1_0", real=True)
 
 
-@paper.claim("lemma1.0", "The stated initial state is inside the constraint", "condition", r"|e_1(0)| < k", "proved",
+@paper.claim("lemma1.0", "The stated initial state is inside the constraint, where the desired curve starts at 0", "condition", r"|e_1(0)| < k", "proved",
              where={"e_1(0)": start_error}, at={start_error: Fraction(0), k: stated_k},
-             note="x_1(0) = 0 is stated, and the desired curve of a run from a station starts at 0.")
+             note="x_1(0) = 0 is stated; x_d(0) stands in Figure 3 alone and is taken as 0.")
 def starts_inside() -> Goal:
     """At the stated initial state and k."""
     return Goal((less(sp.Abs(start_error), k),))

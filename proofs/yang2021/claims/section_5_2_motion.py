@@ -1,14 +1,14 @@
-"""yang2021, section 5.2: the moment T after (52), and a motion of the printed loop that never comes to it."""
+"""yang2021, section 5.2: the moment T after (52), when there is one, and a motion of the printed loop that has none."""
 
 from __future__ import annotations
 
 import sympy as sp
 
-from workbench.proof.claim import Goal, at_most, equal, greater
+from workbench.proof.claim import Goal, at_least, at_most, equal, greater
 
 from ..error_dynamics import W_star, W_tilde, e_1, e_2, eps_star, epsilon, flow, h, lambdas, sigmas, stars, tildes
 from ..laws import alpha, beta, chi, k
-from ..lyapunov import V, error_bound, inside, l_stated, mu, t
+from ..lyapunov import V_0, V, V_t, V_t_rate, along_v, decaying, error_bound, from_zero, inside, l_, l_stated, mu, t
 from ..paper import paper
 from ..stated_values import stated_davis
 
@@ -28,13 +28,32 @@ smallest = sp.Min(2 * alpha, 2 * beta - 1, chi, *(lam * sigma for lam, sigma in 
 
 
 @paper.claim("52.T", "The text after (52): From some time on V is at most l/mu", "limit",
-             r"\text{there is a moment } T, \text{ and, for } \forall t > T, 0 \leq V(t) \leq \frac{l}{\mu} \text{ is always "
-             r"established}", "refuted", rests_on=("52",), closed_loop=True, match="words",
-             scope="every network with one neuron", reading="Along (4) with (27), (33)-(37), for mu of (49) and l of (50).",
-             note="(52) lets V stay above l/mu for ever. In the motion the train stands at its desired position, on the center "
-                  "of the one neuron, f = W* = a* holds it there exactly (epsilon = 0), and a-hat = W-hat = -exp(-t) cancel in "
-                  "(33) while they fade: V comes down to l/mu, and is above it at all times. True is the limit, 52.T.mended, and with it (53) to (57), where 'converge to' a set means "
-                  "that the distance to it goes to zero. The step from (52) itself is what fails, with constant coefficients and whichever way (44) is read.")
+             r"\text{The inequality in Equation (52) means that there is a moment } T, \text{ and, for } \forall t > T, 0 \leq V(t) \leq "
+             r"\frac{l}{\mu} \text{ is always established}", "gap", premises=("52",), match="words",
+             reading="For every V with (51) and (52).",
+             note="(51) and (52) let V stay above l/mu for ever, and in a motion of the loop itself it does (52.T.loop). Where V(0) <= l/mu the line holds with T = 0 (52.T.start), so at "
+                  "the numbers of section 6.1 with first weights of 0 (52.T.stated). True in any case is the limit, and with it (53) to (57), where 'converge to' a set means that the "
+                  "distance to it goes to zero.")
+def moment_from_52() -> Goal:
+    """(52) against a V that comes down to l/mu and never reaches it."""
+    above = {V_t: 1 + sp.exp(-t), V_0: sp.Integer(2), l_: sp.Integer(1), mu: sp.Integer(1)}
+    return Goal((at_most(V_t, l_ / mu),), (), along_v, (decaying[0], *paper.shown("52")), from_zero, eventually=t, model=above,
+                inputs=(V_t_rate,))
+
+
+@paper.claim("52.T.start", "V stays at most l/mu where it starts so", "implication",
+             r"V(0) \leq \frac{l}{\mu} \Rightarrow V(t) \leq \frac{l}{\mu},\ \forall t \geq 0", "proved", origin="ours", premises=("52",))
+def never_above() -> Goal:
+    """From (52): what is added to l/mu is not positive."""
+    return Goal((at_most(V_t, l_ / mu),), (at_most(V_0, l_ / mu), at_least(t, 0), paper.shown("52")[1]),
+                lemmas=(at_most((V_0 - l_ / mu) * sp.exp(-mu * t), 0),))
+
+
+@paper.claim("52.T.loop", "The moment T in the loop itself", "limit",
+             r"\exists T\ \forall t > T: V(t) \leq \frac{l}{\mu}\ \text{along (4), (27), (33)-(37)}", "refuted", origin="ours",
+             closed_loop=True, scope="every network with one neuron", reading="For mu of (49) and l of (50).",
+             note="The train stands at its desired position, on the center of the one neuron, f = W* = a* holds it there exactly (epsilon = 0), and a-hat = W-hat = -exp(-t) "
+                  "cancel in (33) while they fade: V comes down to l/mu, and is above it at all times. All assumptions are met but Assumption 1, which no train of (4) meets (A1).")
 def reached_in_finite_time() -> Goal:
     """The loop at rest, with two estimates that fade and cancel."""
     one, zero, fading = sp.Integer(1), sp.Integer(0), sp.exp(-t)

@@ -24,10 +24,10 @@ from ..error_dynamics import (
     x_2_errors,
 )
 from ..laws import alpha, k
-from ..lyapunov import V, V_rate, V_t_rate, W_star_square, barrier, inside, l_, l_stated, mu, slowest
+from ..lyapunov import V, V_rate, V_t, V_t_rate, W_star_square, barrier, inside, l_, l_stated, mu, slowest
 from ..paper import paper
 from .section_5_1_laws import a_dagger, b_dagger, c_dagger
-from .section_5_2_decay import delta, late
+from .section_5_2_decay import delta
 
 position_most, speed_most, acceleration_most = sp.symbols("X_d V_d A_d", nonnegative=True)
 u_most = sp.Symbol("u_star", nonnegative=True)
@@ -56,7 +56,7 @@ def input_bounded_by_v() -> Goal:
                 lemmas=(at_most(e_1**2, k**2),))
 
 
-@paper.claim("objective.stable", "The second objective of section 5: all signals of the closed loop are bounded", "implication",
+@paper.claim("objective.stable", "The second objective of section 5: all signals of the closed loop are bounded, for constant coefficients and mu > 0", "implication",
              r"\text{The FAO is stable; that is, all closed-loop signals are bounded.}", "proved", severity="result", match="words",
              premises=("theorem1.bounded", "theorem1.barrier", "objective.input", "33.bounded"), rests_on=("theorem1.bounded", "theorem1.barrier", "A3", "A4"),
              scope=EVERY_NETWORK,
@@ -120,15 +120,16 @@ lacking, extra = sp.symbols("p_1:4", real=True), sp.symbols("q_1:4", nonnegative
 l_varying = eps_star**2 / 2 + W_star_square / 2 + sum(
     (sigma * dagger**2 / 2 + q for sigma, dagger, q in zip(sigmas, daggers, extra, strict=True)), sp.Integer(0))
 CONDITIONS = (r"|a^*| \le a^\dagger, |b^*| \le b^\dagger, |c^*| \le c^\dagger,\ |\dot a^*| \le d_1, |\dot b^*| \le d_2, |\dot c^*| \le d_3,\ "
-              r"\mu' = \min[2\alpha, 2\beta - 1, \chi, \tfrac12\lambda_1\sigma_1, \tfrac12\lambda_2\sigma_2, \tfrac12\lambda_3\sigma_3] > 0,\ "
-              r"l' = \tfrac12\varepsilon^{*2} + \tfrac12W^{*2} + \tfrac12\sigma_1a^{\dagger2} + \tfrac12\sigma_2b^{\dagger2} + \tfrac12\sigma_3c^{\dagger2} + "
+              r"\text{with, in place of (49) and (50), } \mu = \min[2\alpha, 2\beta - 1, \chi, \tfrac12\lambda_1\sigma_1, \tfrac12\lambda_2\sigma_2, \tfrac12\lambda_3\sigma_3] > 0,\ "
+              r"l = \tfrac12\varepsilon^{*2} + \tfrac12W^{*2} + \tfrac12\sigma_1a^{\dagger2} + \tfrac12\sigma_2b^{\dagger2} + \tfrac12\sigma_3c^{\dagger2} + "
               r"\tfrac{d_1^2}{\sigma_1\lambda_1^2} + \tfrac{d_2^2}{\sigma_2\lambda_2^2} + \tfrac{d_3^2}{\sigma_3\lambda_3^2}")
-NAMED = "mu and l stand for mu' and l'; p_i and q_i are the left side and the last term of objective.young for each coefficient"
+NAMED = "mu and l are those of this line, not of (49) and (50)"
 
 
-@paper.claim("objective.decay", "V decays where the coefficients vary at bounded rates", "implication", rf"{CONDITIONS} \Rightarrow \dot V \le -\mu'V + l'",
+@paper.claim("objective.decay", "V decays where the coefficients vary at bounded rates", "implication", rf"{CONDITIONS} \Rightarrow \dot V \le -\mu V + l",
              "proved", origin="ours", premises=("objective.rate", "objective.young", "48"), rests_on=(), scope=EVERY_NETWORK,
-             reading=f"{NAMED}, and V_41 is the right side of (41), which (48) bounds and from which the rate of V differs by objective.rate.")
+             reading=f"{NAMED}; p_i and q_i are the left side and the last term of objective.young for each coefficient, and V_41 is the right side of (41), which (48) bounds and from "
+                     "which the rate of V differs by objective.rate.")
 def decay_with_bounded_rates() -> Goal:
     """The rate of V against a decay at half the rate of the estimates."""
     young = tuple(r.subs({-error * rate / gain: p, most**2 / (leakage * gain**2): q}).subs({error: tilde, leakage: sigma})
@@ -142,16 +143,18 @@ def decay_with_bounded_rates() -> Goal:
 
 
 @paper.claim("objective.mended", "Coefficients that vary within bounds and at bounded rates", "implication",
-             rf"{CONDITIONS} \Rightarrow \limsup|e_2| \le \sqrt{{\tfrac{{2l'}}{{\mu'}}}},\ "
-             r"\limsup|e_1| \le \min\left(k\sqrt{1 - e^{-2l'/\mu'}}, \tfrac{1}{\alpha}\sqrt{\tfrac{2l'}{\mu'}}\right),\ "
-             r"\limsup|x_2 - \dot{x}_d| \le 2\sqrt{\tfrac{2l'}{\mu'}}", "proved", origin="ours",
+             rf"{CONDITIONS} \Rightarrow \limsup|e_2| \le \sqrt{{\tfrac{{2l}}{{\mu}}}},\ "
+             r"\limsup|e_1| \le \min\left(k\sqrt{1 - e^{-2l/\mu}}, \tfrac{1}{\alpha}\sqrt{\tfrac{2l}{\mu}}\right),\ "
+             r"\limsup|x_2 - \dot{x}_d| \le 2\sqrt{\tfrac{2l}{\mu}}", "proved", origin="ours",
              mends="objective.varying", premises=("objective.decay", "52.T.mended", "theorem1.speed"), rests_on=(), scope=EVERY_NETWORK,
              reading=f"{NAMED}. From a time on, and for every delta > 0, as Theorem 1 is read.",
-             note="The train tracks position and speed into a neighbourhood that the gains set, to which the rates of the coefficients add. How small it can be made depends on these rates "
+             note="mu and l are those of this statement: (52) and what follows it take any that V decays by. The train tracks position and speed into a neighbourhood that the gains "
+                  "set, to which the rates of the coefficients add. How small it can be made depends on these rates "
                   "by d_i^2/(sigma_i lambda_i^2), which large lambda_i reduce.")
 def tracked_where_coefficients_vary() -> Goal:
     """What (52), which holds of every V that decays as objective.decay says, and theorem1.speed make of it."""
-    near, followed = l_ / mu + delta, paper.shown("theorem1.speed")
+    near, late = l_ / mu + delta, paper.shown("52.T.mended")
+    position, speed = paper.shown("theorem1.speed")
     return Goal((at_most(e_2**2, 2 * near), at_most(e_1**2, k**2 * (1 - sp.exp(-2 * near))),
-                 *(at_most(r.left, 8 * near + 4 * delta) for r in followed)),
-                (*late(), *followed), facts=(2 * near - sp.log(barrier),))
+                 at_most(e_1**2, (2 * near + delta) / alpha**2), at_most(speed.left, 8 * near + 4 * delta)),
+                (inside, equal(V_t, V), *late, position, speed), facts=(2 * near - sp.log(barrier),))

@@ -41,6 +41,7 @@ def _input(resisted: int) -> Goal:
 
 assert scenario.printed_table is not None
 TABLE_2 = scenario.printed_table.rows
+OF_RUNS = ("33.figures", "37.weights")  # what is told of runs is told of the loop that section 6.1 states
 LETTERS = ("e_low", "e_high", "v_low", "v_high")
 NAMES = ("rbfnn_pocrac", "pocrac", "rbf_pid", "pid")
 
@@ -60,7 +61,7 @@ table_values = {symbol: value for name in NAMES for symbol, value in _printed(na
 
 @paper.claim("table2", "RBFNN-POCRAC is the best of Table 2 in every column", "condition",
              r"\text{the RBFNN-POCRAC controller had the best position and speed tracking performance and the highest parking "
-             r"accuracy}", "proved", match="words", at=table_values,
+             r"accuracy}", "proved", rests_on=OF_RUNS, match="words", at=table_values,
              reading="Its ranges of position and speed error lie within those of each of the three others, and its stopping "
                      "accuracy is the smallest.",
              note="Of the printed numbers alone; what runs give stands in the study.")
@@ -75,8 +76,8 @@ def best_of_the_table() -> Goal:
     return Goal(tuple(shown))
 
 
-@paper.claim("table2.band", "The position errors of Table 2 keep the constraint of 0.2 m", "condition",
-             r"\text{the maximum position error is constrained as } e_1(t) = 0.2", "proved", match="words",
+@paper.claim("table2.band", "The position errors of RBFNN-POCRAC and POCRAC in Table 2 keep the constraint of 0.2 m", "condition",
+             r"\text{the maximum position error is constrained as } e_1(t) = 0.2", "proved", rests_on=OF_RUNS, match="words",
              at={symbol: value for name in NAMES[:2] for symbol, value in _printed(name).items()} | {
                  sp.Symbol("k_stated", positive=True): stated_k},
              reading="The errors of RBFNN-POCRAC and POCRAC over 100 runs are at most 0.2 m in size, and below k.")
@@ -95,7 +96,7 @@ def _width(name: str) -> sp.Expr:
              r"\text{the train running speed error of the RBFNN-POCRAC controller was the smallest, and the train running speed "
              r"error and fluctuation of the PID controller were the largest. [...] RBFNN-PID control obviously alleviated the speed "
              r"error, but it was still greater than the speed tracking error of the POCRAC controller and RBFNN-POCRAC controller}",
-             "proved", match="words", at=table_values,
+             "proved", rests_on=OF_RUNS, match="words", at=table_values,
              reading="Said of Figure 10; by the widths of the speed errors' ranges in Table 2.")
 def speed_errors_in_order() -> Goal:
     """RBFNN-POCRAC below POCRAC below RBFNN-PID below PID."""
@@ -105,7 +106,7 @@ def speed_errors_in_order() -> Goal:
 
 @paper.claim("table2.position", "The position errors of PID and RBFNN-PID are far above 0.2 m", "condition",
              r"\text{PID control and RBFNN-PID control exhibited a large position error [...], being far greater than the 0.2 m "
-             r"position error defined in this article}", "proved", match="words",
+             r"position error defined in this article}", "proved", rests_on=OF_RUNS, match="words",
              at={symbol: value for name in NAMES[2:] for symbol, value in _printed(name).items()},
              reading="Said of Figure 9; in Table 2 both ends of their ranges are more than twice as large.")
 def position_errors_of_pid() -> Goal:
@@ -115,5 +116,5 @@ def position_errors_of_pid() -> Goal:
 
 paper.axiom("figures", "Figures 4 to 10: the curve is tracked with high precision, and the errors are the smallest of the four",
             r"\text{the RBFNN-POCRAC controller had the fastest convergence speed and the smallest overall position error and speed "
-            r"error}", "read off the figures by the authors", hypotheses=(), match="words", severity="data",
+            r"error}", "read off the figures by the authors", hypotheses=OF_RUNS, match="words", severity="data",
             note="A statement on simulations, which the study runs anew; for its numbers see 33.figures and table2.")

@@ -29,7 +29,7 @@ LINE = as_printed({  # of another line, too, which may have other numbers of sec
        for i, pair in enumerate(zip(values, texts, strict=False), 1)}})
 
 
-@paper.claim("section6.resistance", "The basic resistance of the simulated train", "condition",
+@paper.claim("section6.resistance", "The train that is simulated here has the printed basic resistance", "condition",
              r"a^* = 0.3, b^* = 4 \times 10^{-3}, c^* = 1.6 \times 10^{-4}", "proved", match="words", severity="data", at=RESISTANCE.at,
              rests_on=(), reading=STUDY, note="By (33) they are per unit of mass: 0.3 N/kg at standstill is some ten times what trains have.")
 def resistance_as_printed() -> Goal:
@@ -37,7 +37,7 @@ def resistance_as_printed() -> Goal:
     return RESISTANCE.goal()
 
 
-@paper.claim("section6.gains", "The gains and the first estimates", "condition",
+@paper.claim("section6.gains", "The controller that is simulated here has the printed gains and first estimates", "condition",
              r"\alpha = 0.5, \beta = 0.51, \lambda_1 = \lambda_2 = \lambda_3 = 0.01, \sigma_1 = \sigma_2 = \sigma_3 = 0.005, \chi = 0.1, k = 0.21, "
              r"\hat{a} = 0.25, \hat{b} = 0, \hat{c} = 0", "proved", match="words", severity="data", at=GAINS.at, rests_on=(), reading=STUDY)
 def gains_as_printed() -> Goal:
@@ -45,7 +45,7 @@ def gains_as_printed() -> Goal:
     return GAINS.goal()
 
 
-@paper.claim("table1", "The line of Table 1", "condition",
+@paper.claim("table1", "The line that is simulated here has the printed slopes, radii and borders", "condition",
              r"\text{Slope: 2, -1.5, 0, 5, 2.5, -3, 0, 1.2 up to 3800, 9200, 21,400, 23,900, 29,900, 32,300, 50,000, 53,880; curve: 1000, 1200, "
              r"800, 1500, 700, 1300, 1200 up to 4600, 18,000, 24,200, 29,300, 34,000, 48,000, 53,880}", "proved", match="words", severity="data",
              at=LINE.at, rests_on=(), reading=STUDY + " Slopes in per mille, the rest in metres.")

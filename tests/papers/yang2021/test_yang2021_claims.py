@@ -44,8 +44,8 @@ def run(a_star, start, duration, steps=400):
     return times, found.y
 
 
-def test_v_stays_above_its_limit_on_the_motion_of_52_t():
-    """Claim 52.T: the train stands, the two estimates fade and cancel, and V never comes to l/mu."""
+def test_v_stays_above_its_limit_on_the_motion_of_52_t_loop():
+    """Claim 52.T.loop: the train stands, the two estimates fade and cancel, and V never comes to l/mu."""
     times, states = run(lambda t: 0.3, [0.0, 0.0, -1.0, 0.0, 0.0, -1.0], 8.0)
     assert np.max(np.abs(states[:2])) < 1e-10
     assert np.allclose(states[2], -np.exp(-times), atol=1e-9)
@@ -75,12 +75,12 @@ def test_the_decay_of_51_fails_where_a_coefficient_moves_and_its_mended_form_hol
 @pytest.mark.parametrize("seed", range(3))
 def test_the_witness_of_theorem1_small_meets_49_and_both_bounds(seed):
     rng = np.random.default_rng(seed)
-    level, k, wanted = rng.uniform(0.01, 5.0, 3)
-    mu = 8 * level * (1 + k**2) / wanted
+    level, k, of_position, of_speed = rng.uniform(0.01, 5.0, 4)
+    mu = 2 * level * k**2 / of_position + 8 * level / of_speed
     alpha, beta, chi, lam, sigma = mu / 2, (1 + mu) / 2, mu, mu, 1.0
     assert np.isclose(min(2 * alpha, 2 * beta - 1, chi, lam * sigma), mu)
-    assert 8 * level / mu <= wanted  # of the speed's error, theorem1.speed
-    assert k**2 * (1 - np.exp(-2 * level / mu)) <= wanted
+    assert 8 * level / mu <= of_speed  # theorem1.speed
+    assert k**2 * (1 - np.exp(-2 * level / mu)) <= of_position
 
 
 @pytest.mark.parametrize("alpha", [0.2, 3.0])
@@ -105,6 +105,30 @@ def test_the_input_is_bounded_by_the_level_of_v():
     assert np.all(lyapunov(states, 0.3) <= most)
     assert np.max(np.abs(e_1) / (1 - e_1**2)) <= np.exp(2 * most)
     assert np.max(x_2**2) <= 3 * (2 * most + 1)
+
+
+def test_the_bound_of_52_over_the_stated_run():
+    """Claims 53.start and 52.T.stated, from the numbers of section 6.1 typed anew."""
+    first = (0.05**2 + 0.004**2 + 0.00016**2) / (2 * 0.01)
+    limit = ((9.80665 * 0.0055 / 2) ** 2 + 0.005 * (0.3**2 + 0.004**2 + 0.00016**2)) / 2 / 5e-5
+    bound = limit + (first - limit) * np.exp(-5e-5 * np.linspace(0, 1800, 50))
+    assert np.all(np.diff(bound) > 0) and bound[-1] <= 1.13
+    assert np.sqrt(2 * bound[-1]) <= 1.51 and 0.21 * np.sqrt(1 - np.exp(-2 * bound[-1])) <= 0.199
+    for best in (0.0, 0.1, 3.0):
+        assert first + best / 0.2 <= (0.005 * 0.3**2 + best) / 2 / 5e-5
+
+
+def test_the_command_of_33_at_the_printed_error():
+    """Claim 33.figures: at the best of what is taken in the paper's favour, behind and ahead."""
+    rate, estimates, acceleration = (axis.ravel() for axis in np.meshgrid(*(
+        np.linspace(*ends, 21) for ends in ((-0.26, 0.26), (0, 1), (-1, 1)))))
+
+    def command(e_1):
+        r_dot, e_2 = acceleration - 0.5 * rate, rate + 0.5 * e_1
+        return estimates + r_dot - 0.51 * e_2 - e_1 / (0.21**2 - e_1**2)
+
+    assert np.min(command(-0.142)) == pytest.approx(4.706, abs=1e-3)  # against 0.6
+    assert np.max(command(0.142)) < -3
 
 
 def test_two_trains_with_different_resistance_and_disturbance_move_alike():

@@ -12,7 +12,7 @@ from workbench.proof.wording import listed
 from workbench.report.finding import Finding
 from workbench.report.worded import worded
 
-NAMED = 3  # lines up to which each is named
+NAMED = 5  # lines up to which each is named
 
 
 def resting_lines(decisions: Sequence[Decision], found: Sequence[Finding]) -> dict[str, list[str]]:
@@ -32,7 +32,7 @@ def resting_lines(decisions: Sequence[Decision], found: Sequence[Finding]) -> di
 def consequence(found: Finding, numbers: Mapping[str, int], lines: Sequence[str], titles: Mapping[str, str]) -> str:
     """What rests on a line, and on what that fails it rests; empty where neither is. numbers: of the corrections, by
     equation; lines: those that rest on it and are no headline statements."""
-    resting = [worded(place) for place in places_of(found.headlines)]
+    resting = [worded(place) for place in places_of(found.headlines, titles)]
     about = corrections(found.headlines, numbers)
     if resting and about:
         resting[-1] += f" ({about})"

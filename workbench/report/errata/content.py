@@ -25,9 +25,9 @@ NOT_AT_HAND = """The paper's own text was not at hand: its lines stand as the re
 here is charged to the paper itself."""
 GRAVEST_FIRST: tuple[FateWord, ...] = ("falls", "stands with corrections", "open", "stands")
 ABOUT = """Every line was stated as mathematics, as it stands here, and decided by a machine. Each verdict \
-below comes with a certificate, a proof or a counterexample in exact arithmetic, that one short program, checker.py, \
-re-checks with Python's standard library alone. Numbers in brackets are those of the paper; words in quotation marks \
-say which part of a line is meant."""
+below but “assumed” comes with a certificate, a proof or a counterexample in exact arithmetic, that one short program, \
+checker.py, re-checks with Python's standard library alone. Numbers in brackets are those of the paper; words in \
+quotation marks say which part of a line is meant."""
 
 
 def errata(decisions: Sequence[Decision], citation: str, at_hand: bool = True) -> list[Block]:
@@ -61,7 +61,7 @@ def _counts(decisions: Sequence[Decision], readings: Sequence[str], at_hand: boo
     implies = "the text implies and does not print" if at_hand else "the others imply"
     said = f", {implied} of which {implies}" if implied else ""
     meant = {"proved": f"true for all values of its domain{only}", "refuted": "false, or assumed and not met",
-             "violated": "a printed condition that the printed numbers break",
+             "violated": "a condition that does not hold at the printed numbers",
              "gap": "it does not follow from what the text uses to get there", "undecided": "not decided",
              "assumed": "a cited result or a definition, taken as given"}
     told = " ".join(f"{verdict.capitalize()}: {meant[verdict]}." for verdict in VERDICTS if counts[verdict])

@@ -27,7 +27,7 @@ def in_short(found: Sequence[Finding], context: Context) -> list[Block]:
     first = {f.equation for cause in context.causes for f in cause}
     others = [f for f in found if f.equation in context.numbers and f.equation not in first and f.fate is None]
     resting, alone = [f for f in others if f.causes], [f for f in others if not f.causes]
-    rest = sum(bool(f.causes) for f in found if f.equation in context.numbers and f.equation not in first)
+    rest = [f for f in found if f.equation in context.numbers and f.equation not in first and f.causes]
     blocks: list[Block] = [Heading(2, "The causes"), Paragraph(_how_many(len(context.causes), len(first), rest)),
                            *([Items(tuple(_at_a_glance(cause, context) for cause in context.causes))]
                              if len(context.causes) > 1 else [])]
@@ -37,7 +37,7 @@ def in_short(found: Sequence[Finding], context: Context) -> list[Block]:
         blocks += [Heading(2, "Lines that fail and rest on them"), Paragraph(RESTING),
                    Items(_resting(resting, context))]
     if alone:
-        blocks += [Heading(2, "Lines that fail by themselves"),
+        blocks += [Heading(2, "Other lines that fail"),
                    Items(tuple(Item(f"{context.numbers[f.equation]}. {short_verdict(f)}.") for f in alone))]
     return blocks
 
@@ -58,13 +58,16 @@ def _resting(resting: Sequence[Finding], context: Context) -> tuple[Item, ...]:
     return tuple(Item(f"On {on}: {'; '.join(named)}.") for on, named in groups.items())
 
 
-def _how_many(causes: int, lines: int, rest: int) -> str:
-    these = "One line fails by itself, and others rest on it" if lines == 1 else (
-        f"{lines} lines fail by themselves, and others rest on them")
+def _how_many(causes: int, lines: int, rest: Sequence[Finding]) -> str:
+    these = f"Other lines rest on {'one' if lines == 1 else lines} that fail{'s' if lines == 1 else ''}"
     kinds = f"; they are {causes} different ones but for their letters" if causes < lines else ""
+    holding = sum(f.verdict == "proved" for f in rest)
+    failing = len(rest) - holding
     more = {0: "", 1: " One more line fails and rests on a cause."}.get(
-        rest, f" {rest} more lines fail and rest on causes.")
-    return f"{these}{kinds}.{more} What shows it all follows behind, by the numbers of the corrections."
+        failing, f" {failing} more lines fail and rest on causes.")
+    passes = {0: "", 1: " One headline statement holds, but the text's way to it passes through a cause."}.get(
+        holding, f" {holding} headline statements hold, but the text's way to them passes through a cause.")
+    return f"{these}{kinds}.{more}{passes} What shows it all follows behind, by the numbers of the corrections."
 
 
 def _at_a_glance(cause: Cause, context: Context) -> Item:

@@ -6,17 +6,18 @@ from collections.abc import Sequence
 
 from workbench.proof.verdict import Decision
 from workbench.report.counterexample_cache import cached_counterexample
-from workbench.report.errata.blocks import Block, Formula, Heading, Items, Paragraph
+from workbench.report.errata.blocks import Block, Formula, Heading, Paragraph
 from workbench.report.errata.conditions import ALONG, STATEMENT_CHECKED, UNDER, listed_conditions
 from workbench.report.errata.letters import in_blocks, legend
+from workbench.report.errata.mended import proof_told
 from workbench.report.errata.names import lines_named, name_of_line
-from workbench.report.errata.proof_steps import proof_steps
+from workbench.report.errata.proof_steps import HOW_TO_READ, proof_steps
 from workbench.report.finding import Finding
 from workbench.report.finding_sentences import IMPLIED, PRINTED, breaks_at
 from workbench.report.hypotheses import conditions_of, motion_of
 from workbench.report.letters import letters_of
 
-SHORT = 6  # steps up to which a proof is told here
+SHORT, MOST_TEXT = 6, 3000  # steps, and characters of them, up to which a proof is told here
 LABELS = {"printed": PRINTED, "implied": IMPLIED, "ours": "Statement"}
 
 
@@ -29,27 +30,38 @@ def lines_referred_to(decisions: Sequence[Decision], found: Sequence[Finding],
     named |= {name.partition(":")[2] for d in proofs for name in d.claim.premises}
     named |= {name for f in found for name in f.mended_under}
     told = {f.equation for f in found} | {d.claim.equation for d in proofs}
-    blocks = [block for d in decisions if d.claim.equation in named - told for block in _line(d)]
-    return [Heading(2, "Lines referred to"), *blocks] if blocks else []
+    lines = [d for d in decisions if d.claim.equation in named - told]
+    how = [Paragraph(HOW_TO_READ)] if not proofs and any(map(_is_short, lines)) else []
+    blocks = [block for d in lines for block in _line(d)]
+    return [Heading(2, "Lines referred to"), *how, *blocks] if blocks else []
 
 
 def _line(d: Decision) -> list[Block]:
-    own, certificate = letters_of(d), d.certificate or {}
-    goal = certificate.get("goal") or {}
-    blocks: list[Block] = [Formula(d.claim.printed, LABELS[d.claim.origin])]
-    shown: list[Block] = []
-    if d.verdict == "proved" and goal:
-        shown = listed_conditions({UNDER: conditions_of(goal), ALONG: motion_of(goal)})
-        proof = proof_steps(certificate) if "proofs" in certificate else None
-        if proof is not None and len(proof.lines) <= SHORT and not (proof.given or proof.always):
-            shown.append(Items(proof.lines))
-    elif point := cached_counterexample(certificate) if goal else None:
-        at = breaks_at(point)
-        shown = [Formula(point.relation, STATEMENT_CHECKED), Paragraph(f"{at[:1].upper()}{at[1:]}.", "Finding")]
     verdict = {"proved": "Proved, where lines hold that are not shown." if d.proved_under else "Proved.",
                "assumed": "Taken as given, its proof was not checked.", "undecided": "Not decided.",
                "refuted": "It does not hold.", "violated": "It does not hold at the printed numbers.",
                "gap": "It does not follow."}[d.verdict]
+    return [Heading(3, name_of_line(d)), Formula(d.claim.printed, LABELS[d.claim.origin]),
+            Paragraph(verdict, "Verdict"), *(proof_told(d) if _is_short(d) else _shown(d))]
+
+
+def _is_short(d: Decision) -> bool:
+    """Whether a line has a proof that is told here."""
+    if "proofs" not in (d.certificate or {}):
+        return False
+    lines = proof_steps(d.certificate or {}).lines
+    return len(lines) <= SHORT and sum(len(line.text) for line in lines) <= MOST_TEXT
+
+
+def _shown(d: Decision) -> list[Block]:
+    """What a line is proved for, or where it fails, and what letters are."""
+    own, certificate = letters_of(d), d.certificate or {}
+    goal = certificate.get("goal") or {}
+    shown: list[Block] = []
+    if d.verdict == "proved" and goal:
+        shown = listed_conditions({UNDER: conditions_of(goal), ALONG: motion_of(goal)})
+    elif point := cached_counterexample(certificate) if goal else None:
+        at = breaks_at(point)
+        shown = [Formula(point.relation, STATEMENT_CHECKED), Paragraph(f"{at[:1].upper()}{at[1:]}.", "Finding")]
     told = legend(shown, own)
-    return [Heading(3, name_of_line(d)), *blocks, Paragraph(verdict, "Verdict"),
-            *([Paragraph(told, "Letters")] if told else []), *in_blocks(shown, own)]
+    return [*([Paragraph(told, "Letters")] if told else []), *in_blocks(shown, own)]

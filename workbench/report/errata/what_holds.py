@@ -1,4 +1,4 @@
-"""What was proved as the paper has it, section by section."""
+"""What was proved as the paper has it, section by section; apart what the text does not show."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from workbench.proof.fate import is_headline
 from workbench.proof.places import places_of, section_of_place, subject_of, whole_of
+from workbench.proof.premises import holds_in_other_reading
 from workbench.proof.verdict import Decision
 from workbench.proof.wording import listed
 from workbench.report.errata.blocks import Block, Heading, Item, Items
@@ -14,14 +15,23 @@ from workbench.report.worded import worded
 
 def what_holds(decisions: Sequence[Decision]) -> list[Block]:
     """The lines of the paper that are proved and rest on nothing that is not shown, by section: numbers, and of
-    headline statements and of lines without a number what they say."""
-    by_section: dict[str, list[Decision]] = {}
-    for d in decisions:
-        if d.claim.origin != "ours" and d.verdict == "proved" and not d.proved_under:
-            by_section.setdefault(section_of_place(d.claim.equation, d.claim.section), []).append(d)
-    items = [Item(f"{section[:1].upper() or 'Elsewhere'}{section[1:]}: {_named(own)}.")
-             for section, own in by_section.items()]
-    return [Heading(2, "What holds as it stands"), Items(tuple(items))] if items else []
+    headline statements and of lines without a number what they say. Those to which the text comes through a line that
+    fails stand apart; headline statements that stand only with corrections are told before."""
+    by_id = {d.claim.id: d for d in decisions}
+    proved = [d for d in decisions if d.claim.origin != "ours" and d.verdict == "proved" and not d.proved_under]
+    through = [d for d in proved if not all(holds_in_other_reading(by_id[name], by_id) for name in d.tainted_by)]
+    groups = {"What holds as it stands": [d for d in proved if d not in through],
+              "What holds, but not by the way of the text": [d for d in through if not is_headline(d)]}
+    return [block for heading, own in groups.items() if own
+            for block in (Heading(2, heading), Items(_by_section(own)))]
+
+
+def _by_section(proved: Sequence[Decision]) -> tuple[Item, ...]:
+    found: dict[str, list[Decision]] = {}
+    for d in proved:
+        found.setdefault(section_of_place(d.claim.equation, d.claim.section), []).append(d)
+    return tuple(Item(f"{section[:1].upper() or 'Elsewhere'}{section[1:]}: {_named(own)}.")
+                 for section, own in found.items())
 
 
 def _named(own: Sequence[Decision]) -> str:
