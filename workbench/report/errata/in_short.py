@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from workbench.proof.verdict import FAILED
 from workbench.report.errata.blocks import Block, Heading, Item, Items, Paragraph
 from workbench.report.errata.causes import Cause
 from workbench.report.errata.chain import consequence, corrections
@@ -27,8 +28,10 @@ def in_short(found: Sequence[Finding], context: Context) -> list[Block]:
     first = {f.equation for cause in context.causes for f in cause}
     others = [f for f in found if f.equation in context.numbers and f.equation not in first and f.fate is None]
     resting, alone = [f for f in others if f.causes], [f for f in others if not f.causes]
-    rest = sum(bool(f.causes) for f in found if f.equation in context.numbers and f.equation not in first)
-    blocks: list[Block] = [Heading(2, "The causes"), Paragraph(_how_many(len(context.causes), len(first), rest)),
+    rest = [f for f in found if f.causes and f.equation in context.numbers and f.equation not in first]
+    failing = sum(f.verdict in FAILED for f in rest)
+    how_many = _how_many(len(context.causes), len(first), failing, len(rest) - failing)
+    blocks: list[Block] = [Heading(2, "The causes"), Paragraph(how_many),
                            *([Items(tuple(_at_a_glance(cause, context) for cause in context.causes))]
                              if len(context.causes) > 1 else [])]
     for cause in context.causes:
@@ -58,12 +61,14 @@ def _resting(resting: Sequence[Finding], context: Context) -> tuple[Item, ...]:
     return tuple(Item(f"On {on}: {'; '.join(named)}.") for on, named in groups.items())
 
 
-def _how_many(causes: int, lines: int, rest: int) -> str:
+def _how_many(causes: int, lines: int, failing: int, holding: int) -> str:
     these = "One line fails by itself, and others rest on it" if lines == 1 else (
         f"{lines} lines fail by themselves, and others rest on them")
     kinds = f"; they are {causes} different ones but for their letters" if causes < lines else ""
     more = {0: "", 1: " One more line fails and rests on a cause."}.get(
-        rest, f" {rest} more lines fail and rest on causes.")
+        failing, f" {failing} more lines fail and rest on causes.")
+    more += {0: "", 1: " One more holds, but not by the way of the text."}.get(
+        holding, f" {holding} more hold, but not by the way of the text.")
     return f"{these}{kinds}.{more} What shows it all follows behind, by the numbers of the corrections."
 
 

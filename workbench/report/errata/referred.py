@@ -6,43 +6,48 @@ from collections.abc import Sequence
 
 from workbench.proof.verdict import Decision
 from workbench.report.counterexample_cache import cached_counterexample
-from workbench.report.errata.blocks import Block, Formula, Heading, Items, Paragraph
+from workbench.report.errata.blocks import Block, Formula, Heading, Paragraph
 from workbench.report.errata.conditions import ALONG, STATEMENT_CHECKED, UNDER, listed_conditions
 from workbench.report.errata.letters import in_blocks, legend
+from workbench.report.errata.mended import proof_blocks
 from workbench.report.errata.names import lines_named, name_of_line
-from workbench.report.errata.proof_steps import proof_steps
+from workbench.report.errata.proof_steps import HOW_TO_READ, proof_steps
 from workbench.report.finding import Finding
 from workbench.report.finding_sentences import IMPLIED, PRINTED, breaks_at
 from workbench.report.hypotheses import conditions_of, motion_of
 from workbench.report.letters import letters_of
 
-SHORT = 6  # steps up to which a proof is told here
+SHORT = 12  # steps up to which a proof is told here
 LABELS = {"printed": PRINTED, "implied": IMPLIED, "ours": "Statement"}
 
 
-def lines_referred_to(decisions: Sequence[Decision], found: Sequence[Finding],
-                      proofs: Sequence[Decision]) -> list[Block]:
-    """The lines that notes and proofs name and that stand nowhere else, in the order of the paper's claims."""
+def referred_to(decisions: Sequence[Decision], found: Sequence[Finding], proofs: Sequence[Decision]) -> list[Decision]:
+    """The lines that notes and proofs name, and the mended forms of lines, that stand nowhere else, in the order of the
+    paper's claims."""
     titles = {d.claim.equation: d.claim.title for d in decisions}
     texts = [text for f in found for text in (f.reading, f.note)] + [d.claim.note for d in proofs]
     named = {name for text in texts for name in lines_named(text, titles)}
     named |= {name.partition(":")[2] for d in proofs for name in d.claim.premises}
-    named |= {name for f in found for name in f.mended_under}
+    named |= {name for f in found for name in (*f.mended_under, f.mended_by) if name}
     told = {f.equation for f in found} | {d.claim.equation for d in proofs}
-    blocks = [block for d in decisions if d.claim.equation in named - told for block in _line(d)]
-    return [Heading(2, "Lines referred to"), *blocks] if blocks else []
+    return [d for d in decisions if d.claim.equation in named - told]
+
+
+def lines_referred_to(referred: Sequence[Decision], explained: bool) -> list[Block]:
+    """Each of these lines with its verdict and what shows it; explained: whether the document has said how its proofs
+    are read."""
+    if not referred:
+        return []
+    how = [] if explained or not any(_short_proof(d) for d in referred) else [Paragraph(HOW_TO_READ)]
+    return [Heading(2, "Lines referred to"), *how, *(block for d in referred for block in _line(d))]
 
 
 def _line(d: Decision) -> list[Block]:
     own, certificate = letters_of(d), d.certificate or {}
     goal = certificate.get("goal") or {}
-    blocks: list[Block] = [Formula(d.claim.printed, LABELS[d.claim.origin])]
     shown: list[Block] = []
     if d.verdict == "proved" and goal:
         shown = listed_conditions({UNDER: conditions_of(goal), ALONG: motion_of(goal)})
-        proof = proof_steps(certificate) if "proofs" in certificate else None
-        if proof is not None and len(proof.lines) <= SHORT and not (proof.given or proof.always):
-            shown.append(Items(proof.lines))
     elif point := cached_counterexample(certificate) if goal else None:
         at = breaks_at(point)
         shown = [Formula(point.relation, STATEMENT_CHECKED), Paragraph(f"{at[:1].upper()}{at[1:]}.", "Finding")]
@@ -51,5 +56,12 @@ def _line(d: Decision) -> list[Block]:
                "refuted": "It does not hold.", "violated": "It does not hold at the printed numbers.",
                "gap": "It does not follow."}[d.verdict]
     told = legend(shown, own)
-    return [Heading(3, name_of_line(d)), *blocks, Paragraph(verdict, "Verdict"),
-            *([Paragraph(told, "Letters")] if told else []), *in_blocks(shown, own)]
+    return [Heading(3, name_of_line(d)), Formula(d.claim.printed, LABELS[d.claim.origin]),
+            Paragraph(verdict, "Verdict"), *(proof_blocks(d) if _short_proof(d) else [
+                *([Paragraph(told, "Letters")] if told else []), *in_blocks(shown, own)])]
+
+
+def _short_proof(d: Decision) -> bool:
+    """Whether a line is proved in few steps, which can be told."""
+    certificate = d.certificate or {}
+    return d.verdict == "proved" and "proofs" in certificate and len(proof_steps(certificate).lines) <= SHORT

@@ -2,26 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from workbench.proof.fate import is_headline
-from workbench.proof.places import places_of, section_of_place, subject_of, whole_of
-from workbench.proof.verdict import Decision
+from workbench.proof.places import place_of, places_of, section_of_place, subject_of, whole_of
+from workbench.proof.verdict import FAILED, Decision
 from workbench.proof.wording import listed
-from workbench.report.errata.blocks import Block, Heading, Item, Items
+from workbench.report.errata.blocks import Block, Heading, Item, Items, Paragraph
+from workbench.report.errata.chain import corrections
 from workbench.report.worded import worded
 
 
-def what_holds(decisions: Sequence[Decision]) -> list[Block]:
+def what_holds(decisions: Sequence[Decision], numbers: Mapping[str, int]) -> list[Block]:
     """The lines of the paper that are proved and rest on nothing that is not shown, by section: numbers, and of
-    headline statements and of lines without a number what they say."""
+    headline statements and of lines without a number what they say; then the corrections that are of other parts of
+    equations named here. numbers: of the corrections, by equation."""
     by_section: dict[str, list[Decision]] = {}
     for d in decisions:
         if d.claim.origin != "ours" and d.verdict == "proved" and not d.proved_under:
             by_section.setdefault(section_of_place(d.claim.equation, d.claim.section), []).append(d)
     items = [Item(f"{section[:1].upper() or 'Elsewhere'}{section[1:]}: {_named(own)}.")
              for section, own in by_section.items()]
-    return [Heading(2, "What holds as it stands"), Items(tuple(items))] if items else []
+    if not items:
+        return []
+    proved = {place_of(d.claim.equation) for own in by_section.values() for d in own}
+    partly = [d.claim.equation for d in decisions if d.claim.equation in numbers and d.verdict in FAILED and
+              (whole := whole_of(d.claim.equation, d.claim.title)) in proved and whole.startswith("Equation")]
+    wholes = places_of(list(dict.fromkeys(equation.partition(".")[0] for equation in partly)))
+    but = [Paragraph(f"Of {listed(wholes)} other parts fail: {corrections(partly, numbers)}.")] if partly else []
+    return [Heading(2, "What holds as it stands"), Items(tuple(items)), *but]
 
 
 def _named(own: Sequence[Decision]) -> str:
