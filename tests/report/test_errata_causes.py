@@ -69,3 +69,4 @@ def test_a_statement_that_holds_by_another_way_is_not_counted_among_those_that_f
     shown = proof(holds.id, "x**2 >= 0", [{"coefficient": "1", "factors": [{"square": "x"}]}], {"x": "0"})
     text = markdown(errata(judged([*chain(), Decision(holds, "proved", "by hand", "exact", 0.0, shown)]), CITATION))
     assert "3 more lines fail and rest on causes. One more holds, but not by the way of the text." in text
+    assert "Theorem 2 (it holds) holds, but not by the way of the text" in text and "## What holds" not in text

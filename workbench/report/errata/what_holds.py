@@ -15,11 +15,12 @@ from workbench.report.worded import worded
 
 def what_holds(decisions: Sequence[Decision], numbers: Mapping[str, int]) -> list[Block]:
     """The lines of the paper that are proved and rest on nothing that is not shown, by section: numbers, and of
-    headline statements and of lines without a number what they say; then the corrections that are of other parts of
-    equations named here. numbers: of the corrections, by equation."""
+    headline statements that stand and of lines without a number what they say; then the corrections that are of other
+    parts of equations named here. numbers: of the corrections, by equation."""
     by_section: dict[str, list[Decision]] = {}
     for d in decisions:
-        if d.claim.origin != "ours" and d.verdict == "proved" and not d.proved_under:
+        stands = d.fate is None or d.fate.word == "stands"
+        if d.claim.origin != "ours" and d.verdict == "proved" and not d.proved_under and stands:
             by_section.setdefault(section_of_place(d.claim.equation, d.claim.section), []).append(d)
     items = [Item(f"{section[:1].upper() or 'Elsewhere'}{section[1:]}: {_named(own)}.")
              for section, own in by_section.items()]
