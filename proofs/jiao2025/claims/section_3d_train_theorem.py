@@ -105,7 +105,7 @@ z_now, z_with, z_without = sp.symbols("z z_with z_without", nonnegative=True)
              reading="The step of the induction over i at a sample, and what it hands on to the next: with c = 1 - p(k+1)d < r < 1 and E D(k,i) <= Z r^i it is E|e(k+1,i)| <= C r^i and E|Delta v(k+1,i)| <= 2C r^(i-1), "
                      "for C >= E|e(k+1,0)| and C >= Z r/(r - c); theta_r is r^(i-1).",
              note="Not the paper's argument, and what is left of Theorem 1 for the train. a is the share of 5.trials. That it stays within [0, 1] in all trials is a condition on the loop: at the speeds of the trip it does (5.loss), but speeds may be far from them while the errors still grow (intro.growth). By 13.mended and theorem1.train.estimate the estimates lie "
-                  "between two bounds, by theorem1.lambda with p = T_s/M, and by theorem1.low, d = min(g, 2 - g) > 0 over them. At the next sample E D(k+1,i) is again below such a power. C grows from sample to sample.")
+                  "between two bounds, by theorem1.lambda with p = T_s/M, and by theorem1.low, d = min(g, 2 - g) > 0 over them. At the next sample E D(k+1,i) is again below such a power. C grows from sample to sample. What v and e are beyond T_i the paper does not say: they are taken as what (1) makes of the inputs.")
 def train_converges() -> Goal:
     """One trial on, in powers of r; then the difference that the next sample is disturbed by."""
     power = power_of_r
