@@ -79,16 +79,16 @@ def _odd_and_even() -> tuple[sp.Expr, sp.Expr]:
 
 
 @paper.claim("remark5.always", "While initial speeds alternate the errors of two trials are never both small", "implication",
-             r"|e(1,i-1)|, |e(1,i)| \le \delta \Rightarrow |w_{\text{even}} - w_{\text{odd}}| \le (2 + G)\,\delta,\ G = \max_{\hat\phi}\tfrac{T_s}{M}\tfrac{\rho\hat\phi}{\lambda + \hat\phi^2}", "proved",
+             r"|e(1,i-1)|, |e(1,i)| \le \delta \Rightarrow |w_{\text{even}} - w_{\text{odd}}| \le (2 + G)\,\delta,\ G = \max_{\hat\phi}\tfrac{T_s}{M}\tfrac{\rho|\hat\phi|}{\lambda + \hat\phi^2}", "proved",
              premises=("1", "14"), origin="ours",
-             note="For every lambda, rho, epsilon and every sequence of estimates: by (14) the input no longer changes when the error is gone, and then the speed changes by what the start does.")
+             note="For every lambda, rho, epsilon and every sequence of estimates, of either sign: by (14) the input no longer changes when the error is gone, and then the speed changes by what the start does.")
 def never_both_small() -> Goal:
     """Two successive trials of the first sample; G bounds the gain of (14)."""
     odd, even = _odd_and_even()
     small = (at_most(e_prev, bound), at_least(e_prev, -bound), at_most(even, bound), at_least(even, -bound))
     reach = (2 + gain_most) * bound
     return Goal((at_most(coasted_even - coasted_odd, reach), at_least(coasted_even - coasted_odd, -reach)),
-                (equal(e_prev, odd), *small, at_least(gain_used, 0), at_most(gain_used, gain_most)),
+                (equal(e_prev, odd), *small, at_least(gain_used, -gain_most), at_most(gain_used, gain_most)),
                 lemmas=(at_most(gain_used * e_prev, gain_most * bound), at_least(gain_used * e_prev, -gain_most * bound)))
 
 
@@ -102,7 +102,7 @@ def never_both_small() -> Goal:
 def start_does_not_matter() -> Goal:
     """The first sample of two trials, by (1) and (14)."""
     odd, even = _odd_and_even()
-    return Goal((equal(even, 0),), (equal(e_prev, odd), equal(e_prev, 0), at_least(gain_used, 0), greater(v_d, 0), at_least(coasted_odd, 0), at_least(coasted_even, 0)))
+    return Goal((equal(even, 0),), (equal(e_prev, odd), equal(e_prev, 0), greater(v_d, 0), at_least(coasted_odd, 0), at_least(coasted_even, 0)))
 
 
 start_effect = sp.Symbol("x_start", real=True)
