@@ -20,7 +20,7 @@ STATED: dict[sp.Expr, Fraction] = {
     **{symbol: exact_decimal(learning[str(symbol)]) for symbol in (rho, lamda, mu, eta, epsilon, K_p, K_d)},
     T_s: exact_decimal(study["readings"]["N"]["step_s"]), M: exact_decimal(study["train"]["mass_kg"])}
 FIRST_INPUT = exact_decimal(learning["first_input"])
-LENGTH, TRIALS = trials["desired_length_k"], trials["count"]
+LENGTH, SHORTEST, TRIALS = trials["desired_length_k"], trials["shortest_length_k"], trials["count"]
 EVERY_LENGTH = "every length of the trial, time-varying train"
 
 

@@ -8,12 +8,14 @@ from pathlib import Path
 import pytest
 from small_decisions import paper, proof
 
+from workbench.proof.checker import goal_digest
 from workbench.proof.paper import collect_papers
-from workbench.report.certificate_latex import name_latex
+from workbench.report.certificate_latex import expression_latex, name_latex
 from workbench.report.dots import dotted
 from workbench.report.errata.content import errata
 from workbench.report.errata.markdown import markdown
 from workbench.report.errata.pdf import typst_source
+from workbench.report.errata.referred import lines_referred_to
 from workbench.report.finding import findings
 from workbench.report.finding_sentences import sentences, verdict_sentence
 from workbench.report.letters import letters_in
@@ -86,6 +88,7 @@ def test_lines_that_are_named_and_stand_nowhere_else_are_written_out():
     referred = text[text.index("## Lines referred to"):text.index("## How to re-check")]
     assert re.findall("^### (.*)$", referred, re.MULTILINE) == ["Equation (7) “the line 7.glyph”"]
     assert "$$\nz_1^2 \\ge 0\n$$" in referred and "**Verdict.** Proved." in referred and "To show:" in referred
+    assert re.search(rf"^   line  7.glyph +{goal_digest(rows[6].certificate)}$", text, re.MULTILINE)
     # A short proof from what is given is told with the numbers of what it takes.
     terms = [{"coefficient": "1", "factors": [{"assume": 0}]}, {"coefficient": "1", "factors": []}]
     given = proof("doe2026:7.glyph", "z_1 >= 0", terms, {"z_1": "1"}, ("z_1 >= 1",))
@@ -95,10 +98,39 @@ def test_lines_that_are_named_and_stand_nowhere_else_are_written_out():
     assert "## Lines referred to" not in told(paper())
 
 
-def test_what_holds_is_listed_by_section():
+def test_a_line_referred_to_has_its_proof_with_what_is_given_numbered():
+    """The proof uses what is given by its number; how that is read is said where no mended statement says it."""
+    terms = [{"coefficient": "1", "factors": [factor]} for factor in ({"assume": 0}, {"square": "k"})]
+    shown = proof("doe2026:7.glyph", "x >= k", terms, {"x": "1", "k": "0"}, ["x >= k + k**2"])
+    rows = [replace(d, certificate=shown) if d.claim.equation == "7.glyph" else d
+            for d in changed("4", {"note": "See 7.glyph."})]
+    text, how = told(rows), "a number in square brackets is a line of what is given"
+    referred = text[text.index("## Lines referred to"):]
+    assert "[1]\\ x \\ge k + k^{2}" in referred and "  - $x - k = [1] + k^{2}$." in referred
+    assert text.count(how) == 1 and how not in referred  # the mended theorem stands before
+    assert how in markdown(lines_referred_to([rows[6]], False))
+
+
+def test_the_mended_form_of_a_line_is_written_out_though_nothing_names_it():
+    rows = changed("7.glyph", {"mends": "doe2026:6", "glyph": None})
+    text = told(rows)
+    assert "### Equation (7) “the line 7.glyph”" in text[text.index("## Lines referred to"):]
+
+
+def test_what_holds_is_listed_by_section_with_the_corrections_of_other_parts():
     text = told(paper())
     held = text[text.index("## What holds as it stands"):text.index("## Evidence")]
-    assert "- Section 3: Lemma 2 (the line lemma2).\n" in held
+    assert "- Section 3: Lemma 2 (the line lemma2).\n" in held and "other parts fail" not in held
+    ids = {"lemma2": "doe2026:6", "6": "doe2026:6.part"}
+    rows = [replace(d, claim=replace(d.claim, id=ids.get(d.claim.equation, d.claim.id), severity="step"), fate=None)
+            if d.claim.equation in ids else d for d in paper()]
+    held = told(rows)[told(rows).index("## What holds as it stands"):told(rows).index("## Evidence")]
+    assert "- Section 3: equation (6).\n\nOf equation (6) other parts fail: correction 3." in held
+
+
+def test_a_sum_counts_by_the_index_of_its_letters():
+    assert expression_latex("Sum(q_j**2*e_j)") == r"\sum_{j} q_{j}^{2} e_{j}"
+    assert expression_latex("Sum(p_k*x_i)") == r"\sum_{i} p_{k} x_{i}" and expression_latex("Sum(x)") == r"\sum_{i} x"
 
 
 @pytest.mark.parametrize(("latex", "shown"), [

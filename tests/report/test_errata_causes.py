@@ -3,7 +3,7 @@
 import re
 from dataclasses import replace
 
-from small_decisions import certificate
+from small_decisions import certificate, proof
 
 from workbench.proof.fate import judged
 from workbench.proof.verdict import Decision, Stated
@@ -83,3 +83,12 @@ def test_lines_that_only_look_alike_are_two_causes():
             if d.claim.equation == "2" else d for d in chain()]
     assert len(causes_of(findings(rows), rows)) == 3
     assert causes_of(findings([d for d in chain() if not d.claim.rests_on]), chain()) == []
+
+
+def test_a_statement_that_holds_by_another_way_is_not_counted_among_those_that_fail():
+    holds = Stated(id="doe2026:theorem2", title="it holds", kind="inequality", printed=r"x^2 \ge 0", recorded="proved",
+                   section="3", rests_on=("doe2026:1",), severity="result")
+    shown = proof(holds.id, "x**2 >= 0", [{"coefficient": "1", "factors": [{"square": "x"}]}], {"x": "0"})
+    text = markdown(errata(judged([*chain(), Decision(holds, "proved", "by hand", "exact", 0.0, shown)]), CITATION))
+    assert "3 more lines fail and rest on causes. One headline statement holds, but the text's way to it passes" in text
+    assert "Theorem 2 (it holds) holds, but not by the way of the text" in text and "## What holds" not in text

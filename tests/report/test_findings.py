@@ -53,6 +53,11 @@ def test_a_theorem_that_falls_names_its_mended_form_and_why():
     assert "Mended, it is proved: $z_1^2 \\ge 0$." in sentences(theorem)
 
 
+def test_what_a_mended_form_uses_may_be_misstated_and_without_a_decision():
+    rows = [replace(d, proved_under=("doe2026:8",)) if d.claim.mends else d for d in paper()]
+    assert next(f for f in findings(rows) if f.equation == "theorem1").mended_under == ("8",)
+
+
 def test_a_step_that_is_taken_without_words_is_not_called_printed():
     rows = [replace(d, claim=replace(d.claim, origin="implied")) if d.claim.equation == "4" else d for d in paper()]
     step, document = next(f for f in findings(rows) if f.equation == "4"), findings_document(findings(rows))

@@ -10,6 +10,7 @@ from fractions import Fraction
 from workbench.proof.checker import RATIONAL, parse, split_relation
 from workbench.proof.latex.letters import LOGARITHM, latex_name
 from workbench.report.number_style import Style, style_of, value_latex
+from workbench.report.sum_index import index_of
 
 SUM, PRODUCT, POWER, ATOM = range(4)  # how tightly a text holds together
 Written = tuple[str, int]
@@ -267,8 +268,7 @@ def _operation(node: ast.BinOp) -> Written:
 _CALLED = {"sqrt": r"\sqrt{%s}", "abs": r"\left|%s\right|", "log": r"\ln\left(%s\right)",
            "sign": r"\operatorname{sgn}\left(%s\right)", "Max": r"\max\left(%s\right)",
            "Min": r"\min\left(%s\right)", "tanh": r"\tanh\left(%s\right)", "sin": r"\sin\left(%s\right)",
-           "cos": r"\cos\left(%s\right)", "tan": r"\tan\left(%s\right)",
-           "arctan": r"\arctan\left(%s\right)"}
+           "cos": r"\cos\left(%s\right)", "tan": r"\tan\left(%s\right)", "arctan": r"\arctan\left(%s\right)"}
 
 
 def _call(name: str, args: list[ast.expr]) -> Written:
@@ -277,7 +277,7 @@ def _call(name: str, args: list[ast.expr]) -> Written:
         case "exp":
             return _exponential_of_logarithm(args[0]) or (f"e^{{{inside}}}", POWER)
         case "Sum":
-            return rf"\sum_{{i}} {_held(args[0], PRODUCT)}", PRODUCT
+            return rf"\sum_{{{index_of(args[0])}}} {_held(args[0], PRODUCT)}", PRODUCT
         case "D":
             whole = inside if isinstance(args[0], ast.Name) else rf"\left[{inside}\right]"
             return rf"\frac{{d}}{{dt}} {whole}", PRODUCT

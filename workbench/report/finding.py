@@ -112,7 +112,8 @@ def _finding(d: Decision, by_id: dict[str, Decision], mended: Decision | None,
     holds = holds_in_other_reading(d, by_id)
     fate_by = d.fate.by if d.fate else ()
     others = [by_id[name].claim for name in (*d.tainted_by, *fate_by)] + [other.claim for other in resting]
-    others += [by_id[name].claim for name in mended.proved_under] if mended else []
+    # A line that is misstated has no decision; what is wrong with it is said apart.
+    others += [by_id[name].claim for name in mended.proved_under if name in by_id] if mended else []
     return Finding(
         d.claim.paper, d.claim.equation, d.claim.section, d.claim.title,
         _gravity(d, bool(resting), holds), d.verdict, d.claim.origin, d.claim.reading, d.claim.printed,

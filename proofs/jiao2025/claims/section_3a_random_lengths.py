@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 import sympy as sp
 
 from workbench.proof.claim import Goal, Relation, at_least, at_most, equal, greater, less
@@ -11,50 +9,53 @@ from workbench.proof.claim import Goal, Relation, at_least, at_most, equal, grea
 from ..laws import e_now, gamma
 from ..notation import T_d, T_min, e_i, gamma_mean, p_k, xi, xi_star
 from ..paper import paper
+from ..stated_values import LENGTH, SHORTEST
 
 sample = sp.Symbol("k", real=True)
 length_i = sp.Symbol("T_i", real=True)
-reached_by_trial = (at_least(length_i, T_min), at_most(sample, length_i))  # k is reached by trial i
 
 
-@paper.claim("3.redundant", "The text after (13): Data that a trial longer than T_d brings are redundant", "inequality",
+of_section_4 = (equal(T_min, SHORTEST), equal(T_d, LENGTH))
+
+
+@paper.claim("3.redundant", "The text after (13): The redundant data of a longer trial begin at T_d", "inequality",
              r"T_d \leq T_i \leq T_{\max}:\ \text{the data in } [T_d, T_{\max}] \text{ are redundant}", "refuted", severity="cosmetic", match="words",
-             reading="Redundant are samples that are not among the desired ones, k > T_d.",
-             note="k = T_d itself is a desired sample; the redundant ones of trial i are those of [T_d + 1, T_i]. The paper then takes T_i <= T_d alone.")
+             reading="Redundant are samples that are not among the desired ones, k > T_d. T_d is that of section 4.",
+             note="A slip of the end point: k = T_d is a desired sample; the redundant ones of trial i are those of [T_d + 1, T_i]. Nor is a trial with T_i = T_d longer. The paper then takes T_i <= T_d alone.")
 def redundant_samples() -> Goal:
     """A sample of the interval lies beyond T_d."""
-    return Goal((greater(sample, T_d),), (at_least(sample, T_d), greater(T_d, 0)))
+    return Goal((greater(sample, T_d),), (at_least(sample, T_d), equal(T_d, LENGTH)))
 
 
 @paper.claim("3.available", "The text after (13): The data of trial i are available on [T_min, T_i]", "implication",
-             r"\text{in the time interval } [T_{\min}, T_i] \text{ the system data are available}", "gap", severity="cosmetic", match="words",
-             reading="As gamma has it, available are the samples that the trial reaches, k <= T_i; they lie in that interval.",
-             correction=lambda: Goal((at_least(sample, 0), at_most(sample, length_i)), (*reached_by_trial, at_least(sample, 0))),
-             corrected_statement=r"[0, T_i]", note="It should read [0, T_i]: up to T_min the data of every trial are available.")
+             r"\text{in the time interval } [T_{\min}, T_i] \text{ the system data are available}", "proved", severity="cosmetic", match="words",
+             reading="As gamma has it, available are the samples with gamma(k,i) = 1: gamma is 0 or 1, and 0 only beyond T_i.",
+             note="True, and less than what holds: data are available on [0, T_i].")
 def available_samples() -> Goal:
-    """A sample that the trial reaches."""
-    return Goal((at_least(sample, T_min),), (*reached_by_trial, at_least(sample, 0), at_least(T_min, 1)))
+    """A sample up to T_i is none at which gamma is 0."""
+    reached_there = (equal(gamma * (1 - gamma), 0), at_least((1 - gamma) * (sample - length_i - 1), 0))
+    return Goal((equal(gamma, 1),), (*reached_there, at_least(sample, T_min), at_most(sample, length_i)),
+                lemmas=(at_most((1 - gamma) ** 2, 0),))
 
 
-@paper.claim("gamma", "gamma = 1 has a probability strictly between 0 and 1 at every k", "condition",
-             r"0 < p(k) < 1", "violated", at={p_k: Fraction(1)}, severity="cosmetic",
-             note="For k in [0, T_d]. The text itself goes on to p(k) = 1 on [0, T_min] and to 0 < p(k) <= 1. At the other end p(k) > 0 asks that the longest length occurs, p(T_d) = p_l > 0 for l = T_d - T_min, "
-                  "where Assumption 3 has 0 <= p_l: it should ask that this one is positive (gamma.positive.mended). With p_l = 1/100, as simulated, it is.")
-def strictly_between() -> Goal:
-    """p(k) on [0, T_min], where the text sets it to 1."""
-    return Goal((greater(p_k, 0), less(p_k, 1)))
+@paper.claim("gamma", "gamma = 1 has a probability below 1 at every k", "inequality",
+             r"0 < p(k) < 1", "refuted", severity="cosmetic", rests_on=(),
+             reading="For k in [0, T_d]; 0 < p(k) is a premise, of which nothing can be false. Asked where the text itself sets p(k) = 1, up to T_min.",
+             note="The text goes on to p(k) = 1 on [0, T_min] and to 0 < p(k) <= 1. 0 < p(k) asks that the longest length occurs, since p(T_d) is its probability, and Assumption 3 has 0 <= p_l: it should ask that "
+                  "this one is positive (gamma.positive.mended). With p_l = 1/100, as simulated, it is.")
+def below_one() -> Goal:
+    """p(k) on [0, T_min]."""
+    return Goal((less(p_k, 1),), (at_most(sample, T_min), at_least(sample, 0), equal(p_k, 1), *of_section_4))
 
 
-@paper.claim("gamma.union", "The events of the union are defined for k in [T_min, T_d]", "condition",
-             r"P[\gamma(k, i) = 1] = P\left[\bigcup_{l=k-T_{\min}}^{T_d-T_{\min}} H_l\right],\ k \in [T_{\min}, T_d],\ l \in \{1, \dots, T_d - T_{\min}\}", "violated",
-             at={sample: Fraction(1900), T_min: Fraction(1900), T_d: Fraction(2000)}, severity="cosmetic",
-             repair={sample: Fraction(1901), T_min: Fraction(1900), T_d: Fraction(2000)},
-             reading="The first index l = k - T_min of the union lies in the set in which H_l is defined.",
+@paper.claim("gamma.union", "The events of the union are defined for k in [T_min, T_d]", "inequality",
+             r"P[\gamma(k, i) = 1] = P\left[\bigcup_{l=k-T_{\min}}^{T_d-T_{\min}} H_l\right],\ k \in [T_{\min}, T_d],\ l \in \{1, \dots, T_d - T_{\min}\}", "refuted", severity="cosmetic", rests_on=(),
+             reading="The first index l = k - T_min of the union lies in the set in which H_l is defined. T_min and T_d are those of section 4.",
              note="At k = T_min the union starts with H_0 and the sum with p_0, which Assumption 3 does not define. "
                   "The formula for p(k) that follows starts at T_min + 1.")
 def union_is_defined() -> Goal:
-    """The first index of the union at k = T_min."""
-    return Goal((at_least(sample - T_min, 1), at_most(sample - T_min, T_d - T_min)))
+    """The first index of the union."""
+    return Goal((at_least(sample - T_min, 1),), (at_least(sample, T_min), at_most(sample, T_d), *of_section_4))
 
 
 paper.axiom("remark3", "Remark 3: the probabilities of all lengths are known",
@@ -62,7 +63,7 @@ paper.axiom("remark3", "Remark 3: the probabilities of all lengths are known",
             "the paper's choice, after its reference [23]", hypotheses=("A3",), severity="cosmetic", match="words",
             note="No law uses them, as Remark 5 says: remark5.distribution.")
 
-reach, reach_next, total, total_next, p_l = sp.symbols("P_reach P_reach_next S_k S_next p_l", real=True)
+reach, reach_next, total, total_next, p_l = sp.symbols("P_reach P_reach_next P_sum P_sum_next p_l", real=True)
 
 
 @paper.claim("gamma.p", "Probability that a trial reaches k", "identity",
@@ -110,9 +111,9 @@ def _reaching(*more: Relation) -> Goal:
     return Goal((greater(p_k, 0), at_most(p_k, 1)), (*distribution, *more))
 
 
-@paper.claim("gamma.positive", "Obviously 0 < p(k) <= 1", "inequality", r"0 < p(k) \leq 1", "proved", premises=("gamma.p",), rests_on=("gamma.p", "A3"),
+@paper.claim("gamma.positive", "0 < p(k) <= 1, where 0 < p(k) as laid down for gamma", "inequality", r"0 < p(k) \leq 1", "proved", premises=("gamma.p",), rests_on=("gamma.p", "A3"),
              reading="With 0 < p(k), which the text lays down where it defines gamma.",
-             note="Assumption 3 alone does not give it: A3.last.")
+             note="The text calls it obvious; Assumption 3 alone does not give 0 < p(k): A3.last.")
 def reaching_is_possible() -> Goal:
     """p(k) for any distribution that Assumption 3 allows, with what is laid down of gamma."""
     return _reaching(greater(p_k, 0))

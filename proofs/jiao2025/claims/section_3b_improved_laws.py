@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 import sympy as sp
 
 from workbench.proof.claim import D, Goal, at_most, equal
@@ -21,11 +19,10 @@ from ..laws import (
     input_step,
     phi_prev,
 )
-from ..notation import T_d, xi_star
+from ..notation import xi_star
 from ..paper import paper
 from ..plant import u_prev
 from .section_2c_algorithm import estimation_law, input_law
-from .section_3a_random_lengths import sample
 
 with_gamma = {e_next: gamma * e_prev}  # e*(k+1,i-1)
 
@@ -46,16 +43,6 @@ def kept_input() -> Goal:
     """(14) at gamma = 0."""
     law, = paper.shown("14")
     return Goal((equal(law.right.xreplace(with_gamma), u_prev),), (equal(gamma, 0),))
-
-
-@paper.claim("14.range", "The error that the laws use is defined for all k that the paper names", "condition",
-             r"e(k+1, i),\ \forall k \in [0, 1, \dots, T_d]:\ k + 1 \leq T_d", "violated", at={sample: Fraction(2000), T_d: Fraction(2000)},
-             repair={sample: Fraction(1999), T_d: Fraction(2000)}, origin="implied", severity="cosmetic",
-             reading="v_d is given for k up to T_d, and (5), Assumptions 2 and 4 and u(k,0) are stated for all k up to T_d.",
-             note="In (5), (14), (15) and (18) alike k = T_d would need v(T_d + 1). They hold for k up to T_d - 1.")
-def error_is_defined() -> Goal:
-    """k + 1 <= T_d at k = T_d."""
-    return Goal((at_most(sample + 1, T_d),))
 
 
 @paper.claim("15", "The estimation law with the modified innovation", "identity",

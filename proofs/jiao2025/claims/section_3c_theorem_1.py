@@ -13,6 +13,7 @@ from ..laws import (
     Delta_u,
     e_next,
     e_prev,
+    epsilon,
     estimate_step,
     eta,
     gamma,
@@ -27,7 +28,7 @@ from ..laws import (
 from ..notation import epsilon_bar, p, p_k
 from ..paper import paper
 from ..plant import u_prev
-from .section_2c_algorithm import least_estimate, share_of_new
+from .section_2c_algorithm import after_reset, fires, least_estimate, share_of_new, updated
 from .section_3b_improved_laws import with_gamma
 
 phi_c, phi_hat = sp.symbols("phi_c phi_hat_c", positive=True)  # by Assumption 4 and 13.mended, with a positive first estimate
@@ -110,7 +111,7 @@ e_learned = sp.Symbol("e_learned", real=True)
 @paper.claim("theorem1.whole", "From (6), (14) and the assumptions to the contraction", "implication",
              r"\gamma = 1 \Rightarrow |e(k+1,i)| \le (1 - M_1)|e(k+1,i-1)|,\quad M_1 = \min\left(\frac{\rho\bar\varepsilon m}{\lambda + \Phi^2}, 2 - s, \tfrac12\right) > 0", "proved",
              premises=("theorem1.step", "theorem1.lambda", "theorem1.low"), origin="ours", reading="For e(k+1,i-1) >= 0, and with all signs turned for the opposite; M_1 is at most each of the three numbers.",
-             note="Assumptions 2 and 4 enter as epsilon_bar < phi_c <= p. Theorem 1's algebra is sound.")
+             note="Shown for e(k+1,i-1) >= 0; for the opposite all signs turn. Assumptions 2 and 4 enter as epsilon_bar < phi_c <= p.")
 def contraction_whole() -> Goal:
     """theorem1.step at gamma = 1, with the bounds of its factor."""
     step, = paper.shown("theorem1.step")
@@ -151,57 +152,63 @@ def expected_step() -> Goal:
 
 
 m_0, i_trial, delta = sp.symbols("m_0 i delta", positive=True)
-geometric_term = sp.Symbol("theta", nonnegative=True)
+power, power_of_g = sp.symbols("theta theta_g", nonnegative=True)  # (1 - p M_1)^(i-1) and (1 - g)^i
 THEOREM = r"\exists \lambda_{\min} > 0:\ \lambda > \lambda_{\min} \Rightarrow \lim_{i \rightarrow \infty} E\{e(k, i)\} = 0"
+
+
+left = sp.IndexedBase("x_j", real=True)
 
 
 @paper.claim("A3.independent", "The lengths of different trials are independent of each other", "implication",
              r"E\{\gamma(k+1,i-1)\,e(k+1,i-1)\} = p(k+1)\,E\{e(k+1,i-1)\}", "gap", origin="implied", rests_on=("A3", "gamma.mean"), premises=("theorem1.step",),
              reading="The step from one expected error to the next, in which gamma(k+1,i-1) and the error that the trials before have left are taken as independent. Asked where all trials "
-                     "have the same random length, T_i = T_1, as Assumption 3 allows: after the first trial the error is (1 - g) e_0 with the probability p(k+1), and then data arrive again, else e_0.",
-             correction=lambda: _next_mean(p_k), corrected_statement=r"P[T_i = T_{\min} + l\,|\,T_1, \dots, T_{i-1}] = p_l,\ 0 \le p_l < 1,\ p_{T_d - T_{\min}} > 0 \Rightarrow "
-                                                                    r"E\{\gamma(k+1,i-1)\,e(k+1,i-1)\} = p(k+1)\,E\{e(k+1,i-1)\}",
-             note="Assumption 3 gives the distribution of each T_i, not their dependence; the paper certainly means independent lengths. Without them the theorem fails: theorem1.lengths.")
+                     "have the same random length, T_i = T_0, as Assumption 3 allows: in trial 1 the error is (1 - g) e_0 with the probability p(k+1), and just then data arrive again, else it is e_0 > 0.",
+             note="Assumption 3 gives the distribution of each T_i, not their dependence; the paper certainly means independent lengths: A3.independent.mended. Without them the theorem fails: theorem1.lengths.")
 def lengths_are_independent() -> Goal:
-    """Where trial i-1 is as long as the first one, data arrive just where they did."""
-    return _next_mean(sp.Integer(1))
+    """Where trial 1 is as long as trial 0, data arrive just where they did."""
+    learned = (1 - g) * e_start
+    return Goal((equal(p_k * learned, p_k * (p_k * learned + (1 - p_k) * e_start)),), (greater(p_k, 0), less(p_k, 1), less(g, 1), greater(e_start, 0)))
 
 
-def _next_mean(again: sp.Expr) -> Goal:
-    """E{gamma e} and p E{e} after one trial; `again` is the chance of data where they have arrived before, and as it is where they have not."""
-    learned, kept = (1 - g) * e_start, e_start
-    not_again = (p_k - p_k * again) / (1 - p_k)  # so that gamma is 1 with the probability p in all
-    together = p_k * again * learned + (1 - p_k) * not_again * kept
-    return Goal((equal(together, p_k * (p_k * learned + (1 - p_k) * kept)),), (greater(p_k, 0), less(p_k, 1), less(g, 1)))
+@paper.claim("A3.independent.mended", "The length of a trial is independent of those of the trials before, from trial 0 on", "identity",
+             r"P[T_{i-1} = T_{\min} + l\,|\,T_0, \dots, T_{i-2}] = p_l\ \forall l \Rightarrow E\{\gamma(k+1,i-1)\,e(k+1,i-1)\} = p(k+1)\,E\{e(k+1,i-1)\}", "proved",
+             premises=("gamma.p",), origin="ours", mends="A3.independent", scope="every finite number of outcomes, which lengths with finitely many values make",
+             reading="Outcome j of the trials before has the chance q_j^2 and leaves the error x_j; trial i-1 then reaches k + 1, and gamma is 1, with the chance p(k+1), whatever j is; else gamma is 0.",
+             note="Trial 0 belongs to them: (14) uses gamma(k+1,0) e(k+1,0) in trial 1.")
+def product_of_means() -> Goal:
+    """The mean of gamma e over outcomes and data."""
+    with_data, without_data = (mean_of(sp.Integer(value) * left[j]) for value in (1, 0))
+    return Goal((equal(p_k * with_data + (1 - p_k) * without_data, p_k * mean_of(left[j])),))
 
 
-@paper.claim("theorem1", "Theorem 1: under Assumptions 1 to 4 the expected error converges to zero", "limit", THEOREM, "refuted",
+@paper.claim("theorem1", "Theorem 1: under Assumptions 1 to 4 the expected error converges to zero", "limit", THEOREM, "gap",
              premises=("theorem1.step", "13", "14"), rests_on=("6", "6.unchanged", "13.keeps", "14", "15", "gamma.positive", "gamma.mean", "A3.independent"),
-             severity="result", closed_loop=True,
+             severity="result",
              reading="A motion of (6), (13)-(15) that is the same in every trial has no error; k <= T_min, so that no trial ends before (gamma = 1). The assumptions are those of the theorem.",
-             note="Take v(k+1) = 2u(k), which meets Assumptions 1, 2 and 4, and phi_hat(k,1) = 0, of which the paper asks nothing: (14) does not move the input, (13) puts 0 back in every trial, and the error stays "
-                  "as it is, for every lambda (theorem1.frozen). With a first estimate of the wrong sign (13) keeps the sign wrong, and the error grows in every trial (theorem1.sign). Independence of the lengths "
-                  "is missing too (A3.independent). With a positive first estimate and independent lengths the theorem holds for the systems of which it speaks: theorem1.mended. The paper prints no proof, it "
+             note="Two conditions are missing, each of a usual kind. phi_hat(k,1) > 0: take v(k+1) = 2u(k), which meets Assumptions 1, 2 and 4, and phi_hat(k,1) = 0, of which the paper asks nothing; (14) does not move "
+                  "the input, (13) puts 0 back in every trial, and the error stays as it is, for every lambda (theorem1.frozen). With a first estimate of the wrong sign the error grows in every trial (theorem1.sign). "
+                  "And independent lengths: theorem1.lengths. With both the theorem holds: theorem1.mended. The paper prints no proof, it "
                   "refers to [22]; the steps here are those that its equations force. What v and e are for k > T_i, where trial i has ended, it does not say either: they are taken as what (6) makes of them. "
-                  "That the train is such a system is another matter, see remark2.inherent and A4.train.")
+                  "That the train is no system of which the theorem speaks is another matter, see remark2.inherent and A4.train.")
 def constant_error() -> Goal:
     """The printed loop in two trials that are equal: (14), and (13) with Delta u = 0, whose second test fires."""
     law, = paper.shown("14")
     step, = paper.shown("theorem1.step")
-    in_use = {e_next: e_prev, phi_i: phi_first, gamma: sp.Integer(1)}
-    same_in_every_trial = (equal(law.right.xreplace(in_use), u_prev), equal(step.right.xreplace(in_use), e_prev))
+    in_use = {e_next: e_prev, phi_i: after_reset, gamma: sp.Integer(1)}
+    moved = law.right.xreplace(in_use)
+    same_in_every_trial = (equal(moved, u_prev), equal(step.right.xreplace(in_use), e_prev))
+    reset = (at_most((moved - u_prev) ** 2, epsilon**2), equal(fires, 1), equal(after_reset, fires * phi_first + (1 - fires) * updated))
     assumptions = (greater(phi, epsilon_bar), at_most(phi, p), greater(lamda, rho**2 * p**2 / 4), at_most(rho, 1))
-    return Goal((equal(e_prev, 0),), (*same_in_every_trial, *assumptions))
+    return Goal((equal(e_prev, 0),), (*same_in_every_trial, *reset, *assumptions))
 
 
-@paper.claim("theorem1.frozen", "With a first estimate of zero the input never changes, whatever lambda", "implication",
-             r"\hat\phi_c(k,1) = 0 \Rightarrow u_f(k,i) = u_f(k,i-1)\ \forall\lambda > 0", "proved", premises=("13", "14"), origin="ours",
-             note="For every rho and every error. The input change is 0, so that the second test of (13) fires and puts 0 back.")
+@paper.claim("theorem1.frozen", "With a first estimate of zero input and error never change, whatever lambda", "implication",
+             r"\hat\phi_c(k,1) = 0 \Rightarrow u_f(k,i) = u_f(k,i-1),\ e(k+1,i) = e(k+1,i-1)\ \forall\lambda > 0", "proved", premises=("theorem1.step", "13", "14"), origin="ours",
+             note="For every rho, phi_c and error. The input change is 0, so that the second test of (13) fires and puts 0 back.")
 def frozen_input() -> Goal:
-    """(14) with the estimate after a reset."""
-    law, = paper.shown("14")
-    reset, = paper.shown("13")
-    return Goal((equal(law.right.xreplace({phi_i: reset.left}), u_prev),), (reset, equal(phi_first, 0)))
+    """(14) and theorem1.step with the estimate after a reset."""
+    (law,), (step,), (reset,) = (paper.shown(name) for name in ("14", "theorem1.step", "13"))
+    return Goal((equal(law.right.xreplace({phi_i: reset.left}), u_prev), equal(step.right.xreplace({phi_i: reset.left}), e_prev)), (reset, equal(phi_first, 0)))
 
 
 @paper.claim("theorem1.sign", "A first estimate of the wrong sign makes the error grow in every trial", "implication",
@@ -216,31 +223,33 @@ def wrong_sign() -> Goal:
 
 
 @paper.claim("theorem1.lengths", "With one and the same random length in all trials the expected error does not vanish", "limit",
-             r"T_i = T_1\ \forall i \Rightarrow \lim_{i\to\infty}E\{e(k,i)\} = 0", "gap", premises=("theorem1.step",), origin="ours",
+             r"T_i = T_0\ \forall i \Rightarrow \lim_{i\to\infty}E\{e(k,i)\} = 0", "gap", premises=("theorem1.step",), origin="ours",
              note="Assumption 3 gives the distribution of each T_i, not their dependence. If all trials have one and the same random length, k "
-                  "is reached in all of them or in none, and E{e(k,i)}/e_0 = (1-p) + p (1-g)^i does not go to zero (theta is (1-g)^i).")
+                  "is reached in all of them or in none, and E{e(k,i)}/e_0 = (1-p) + p (1-g)^i does not go to zero.")
 def same_length_always() -> Goal:
-    """E{e}/e_0 when T_i = T_1 for all i, from the trial on at which (1-g)^i <= delta."""
-    mean = (1 - p_k) + p_k * geometric_term
-    return Goal((at_most(mean, 2 * delta),), (greater(p_k, 0), less(p_k, 1), at_most(geometric_term, delta)))
+    """E{e}/e_0 when T_i = T_0 for all i, from the trial on at which (1-g)^i <= delta."""
+    mean = (1 - p_k) + p_k * power_of_g
+    return Goal((at_most(mean, 2 * delta),), (greater(p_k, 0), less(p_k, 1), at_most(power_of_g, delta)))
 
 
 @paper.claim("theorem1.mended", "Theorem 1 with its missing conditions, for the systems of which it speaks", "limit",
-             r"\text{Assumptions 1 to 4},\ \rho, \eta \in (0, 1],\ \mu > 0,\ \lambda > \tfrac{1}{16}\rho^2p^2,\ \hat\phi_c(k,1) > 0,\ T_1, T_2, \ldots\ \text{independent},\ p_{T_d - T_{\min}} > 0 \Rightarrow "
-             r"E|e(k,i)| \le (1 - p(k)M_1)^i\,E|e(k,0)| \to 0,\ k \ge 1", "proved",
-             premises=("theorem1.mean", "theorem1.whole", "gamma.positive.mended", "13.mended", "theorem1.estimate.bounded"),
+             r"\text{Assumptions 1 and 4},\ \text{Assumption 2 for any two runs},\ \rho, \eta \in (0, 1],\ \mu > 0,\ \lambda > \tfrac{1}{16}\rho^2p^2,\ \hat\phi_c(k,1) > 0,\ "
+             r"T_0, T_1, \ldots\ \text{independent, each as in Assumption 3},\ 0 < p(k) \le 1 \Rightarrow E|e(k,i)| \le (1 - p(k)M_1)^i\,E|e(k,0)| \to 0,\ k \ge 1,\ "
+             r"M_1 = \min\left(\frac{\rho\bar\varepsilon m}{\lambda + \Phi^2}, 2 - s, \tfrac12\right),\ m = \min(\varepsilon, \hat\phi_c(k,1)),\ \Phi = \max(p, \hat\phi_c(k,1)),\ s = \frac{\rho p}{2\sqrt\lambda}", "proved",
+             premises=("theorem1.mean", "theorem1.whole", "gamma.positive", "13.mended", "theorem1.estimate.bounded", "A3.independent.mended"),
              rests_on=(), origin="ours", severity="result", mends="theorem1",
              reading="m_i is E|e(k,i)|, which is at least |E e(k,i)|, and theta is (1 - p M_1)^(i-1). Decided as the step of m_i <= (1 - p M_1)^i m_0 and of (1 - p M_1)^i <= 1/(1 + p M_1 i), with the trial from which on m is below delta.",
-             note="For the systems that meet the assumptions. The train is none, see theorem1.train. E{e} alone could be zero while e is not, see 6.aim; E|e| goes to zero like a geometric series, "
-                  "so that e itself does with probability one, by Markov's inequality and the lemma of Borel and Cantelli.")
+             note="What the paper does not ask is phi_hat(k,1) > 0 and independent lengths, from trial 0 on, which (14) uses in trial 1; 0 < p(k) it lays down where it defines gamma. The systems are those in which v(k+1) depends on "
+                  "u(k) alone, by Assumption 2 for any two runs of the system, whatever their starts and inputs (6.unchanged); the train is none, see theorem1.train. E{e} alone could be zero while e is not, see intro.error; E|e| goes to zero like a geometric series, "
+                  "so that e itself does with probability one, by Markov's inequality and the lemma of Borel and Cantelli. The conditions with m_i and theta are the step from trial i-1 to trial i.")
 def expectation_converges() -> Goal:
     """Both bounds carry over to the next trial, and the second one is below delta/m_0 for i >= m_0/(p M_1 delta)."""
     rate, before = p_k * M_1, i_trial - 1
     below_one = named_contraction()[-1]
     mean, = paper.shown("theorem1.mean")
-    given = (mean.subs({mean.left: m_i, mean_of(error[j]): m_prev}), *paper.shown("gamma.positive.mended"), below_one, at_least(i_trial, 1),
-             at_most(m_prev, geometric_term * m_0), at_most(geometric_term * (1 + rate * before), 1), at_least(i_trial, m_0 / (rate * delta)))
-    return Goal((at_most(m_i, (1 - rate) * geometric_term * m_0), at_most((1 - rate) * geometric_term * (1 + rate * i_trial), 1), at_most(m_i, delta)), given,
-                lemmas=(less(rate, 1), at_most((1 - rate) * m_prev, (1 - rate) * geometric_term * m_0), at_most(m_i, (1 - rate) * geometric_term * m_0),
-                        at_most((1 - rate) * (1 + rate * i_trial), 1 + rate * before), at_most((1 - rate) * geometric_term * (1 + rate * i_trial), geometric_term * (1 + rate * before)),
-                        at_least(rate * i_trial * delta, m_0), at_most((1 - rate) * geometric_term * rate * i_trial, 1), at_most((1 - rate) * geometric_term * m_0, delta)))
+    given = (mean.subs({mean.left: m_i, mean_of(error[j]): m_prev}), *paper.shown("gamma.positive"), below_one, at_least(i_trial, 1),
+             at_most(m_prev, power * m_0), at_most(power * (1 + rate * before), 1), at_least(i_trial, m_0 / (rate * delta)))
+    return Goal((at_most(m_i, (1 - rate) * power * m_0), at_most((1 - rate) * power * (1 + rate * i_trial), 1), at_most(m_i, delta)), given,
+                lemmas=(less(rate, 1), at_most((1 - rate) * m_prev, (1 - rate) * power * m_0), at_most(m_i, (1 - rate) * power * m_0),
+                        at_most((1 - rate) * (1 + rate * i_trial), 1 + rate * before), at_most((1 - rate) * power * (1 + rate * i_trial), power * (1 + rate * before)),
+                        at_least(rate * i_trial * delta, m_0), at_most((1 - rate) * power * rate * i_trial, 1), at_most((1 - rate) * power * m_0, delta)))

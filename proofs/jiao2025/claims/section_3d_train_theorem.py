@@ -16,7 +16,7 @@ from ..paper import paper
 from ..stated_values import EVERY_LENGTH
 from .section_2a_train import a, b
 from .section_2b_data_model import Delta_f
-from .section_3c_theorem_1 import error, g, geometric_term, j, largest, m_i, m_prev, mean_of, phi_upper, shortfall
+from .section_3c_theorem_1 import error, g, j, largest, m_i, m_prev, mean_of, phi_upper, shortfall
 
 share = sp.Symbol("gamma_01", real=True)
 before = sp.Symbol("D_i", nonnegative=True)
@@ -83,7 +83,7 @@ disturbance, without, slack = (sp.IndexedBase(name, real=True) for name in ("z_j
              r"|1 - g| \le 1 - d \Rightarrow E|e(k+1,i)| \le (1 - p(k+1)d)\,E|e(k+1,i-1)| + E\,D(k,i)", "proved",
              premises=("theorem1.train.step", "gamma.mean"), origin="ours", scope="every finite number of outcomes, which lengths with finitely many values make",
              note="As theorem1.mean: outcome j has the chance q_j^2, an error of the size e_j, and errors that are t_j^2 and s_j^2 below the bounds of "
-                  "theorem1.train.step with and without data. gamma(k+1,i-1) is independent of the outcome; D(k,i) is not independent of gamma, it is z_j with data and zeta_j without.")
+                  "theorem1.train.step with and without data. gamma(k+1,i-1) is independent of the outcome, A3.independent.mended; D(k,i) is not independent of gamma, it is z_j with data and zeta_j without.")
 def train_expected_step() -> Goal:
     """Both values of gamma, probabilities multiplied."""
     with_data = (1 - least) * error[j] + disturbance[j] - shortfall[j] ** 2
@@ -93,21 +93,22 @@ def train_expected_step() -> Goal:
 
 
 r_rate, c_rate, Z, C = sp.symbols("r c Z C", positive=True)
+power_of_r = sp.Symbol("theta_r", nonnegative=True)  # r^(i-1)
 z_now, z_with, z_without = sp.symbols("z z_with z_without", nonnegative=True)
 
 
 @paper.claim("theorem1.train", "The train's expected errors converge, sample after sample", "limit",
-             r"\text{(1)-(3)},\ 0 \le a \le 1,\ |\Delta f_a| \le L|\Delta s|,\ \text{the same } v(0,i), s(0,i),\ \rho, \eta \in (0, 1],\ \mu > 0,\ \hat\phi_c(k,1) > 0,\ "
-             r"\lambda > \tfrac{1}{16}\rho^2\tfrac{T_s^2}{M^2},\ T_1, T_2, \ldots\ \text{independent},\ p_{T_d - T_{\min}} > 0 \Rightarrow "
-             r"E|e(k,i)| \le C_kr_k^i \to 0,\ k \ge 1", "proved", premises=("theorem1.train.mean", "theorem1.train.sum", "theorem1.train.estimate", "13.mended", "theorem1.lambda", "gamma.positive.mended"),
+             r"\text{(1)-(3)},\ 0 \le a \le 1\ \text{at all}\ k, i,\ |\Delta f_a| \le L|\Delta s|,\ \text{the same } v(0,i), s(0,i),\ \rho, \eta \in (0, 1],\ \mu > 0,\ \hat\phi_c(k,1) > 0,\ "
+             r"\lambda > \tfrac{1}{16}\rho^2\tfrac{T_s^2}{M^2},\ T_0, T_1, \ldots\ \text{independent, each as in Assumption 3},\ 0 < p(k) \le 1 \Rightarrow "
+             r"E|e(k,i)| \le C_kr_k^i \to 0,\ k \ge 1", "proved", premises=("theorem1.train.mean", "theorem1.train.sum", "theorem1.train.estimate", "13.mended", "theorem1.lambda", "theorem1.low", "gamma.positive", "A3.independent.mended"),
              rests_on=(), scope=EVERY_LENGTH, origin="ours", severity="result", mends="conclusion",
              reading="The step of the induction over i at a sample, and what it hands on to the next: with c = 1 - p(k+1)d < r < 1 and E D(k,i) <= Z r^i it is E|e(k+1,i)| <= C r^i and E|Delta v(k+1,i)| <= 2C r^(i-1), "
-                     "for C >= E|e(k+1,0)| and C >= Z r/(r - c); theta is r^(i-1).",
-             note="Not the paper's argument, and what is left of Theorem 1 for the train. a is the share of 5.trials, within [0, 1] at the speeds of the trip (5.loss). By 13.mended and theorem1.train.estimate the estimates lie "
-                  "between two bounds, by theorem1.lambda with p = T_s/M, and by theorem1.low, d = min(g, 2 - g) > 0 over them. At the next sample E D(k+1,i) is again below such a power. C grows from sample to sample: see intro.growth.")
+                     "for C >= E|e(k+1,0)| and C >= Z r/(r - c); theta_r is r^(i-1).",
+             note="Not the paper's argument, and what is left of Theorem 1 for the train. a is the share of 5.trials. That it stays within [0, 1] in all trials is a condition on the loop: at the speeds of the trip it does (5.loss), but speeds may be far from them while the errors still grow (intro.growth). By 13.mended and theorem1.train.estimate the estimates lie "
+                  "between two bounds, by theorem1.lambda with p = T_s/M, and by theorem1.low, d = min(g, 2 - g) > 0 over them. At the next sample E D(k+1,i) is again below such a power. C grows from sample to sample. What v and e are beyond T_i the paper does not say: they are taken as what (1) makes of the inputs.")
 def train_converges() -> Goal:
     """One trial on, in powers of r; then the difference that the next sample is disturbed by."""
-    power = geometric_term
+    power = power_of_r
     mean, = paper.shown("theorem1.train.mean")
     bounded = mean.subs({mean.left: m_i, mean_of(error[j]): m_prev, mean_of(disturbance[j]): z_with, mean_of(without[j]): z_without})
     given = (less(c_rate, r_rate), less(r_rate, 1), at_most(m_prev, C * power), equal(z_now, p_k * z_with + (1 - p_k) * z_without), at_most(z_now, Z * r_rate * power),

@@ -84,10 +84,11 @@ def first_step_infeasible() -> Goal:
 
 @paper.claim("16.samples", "2000 steps of T_s make the trip of T_d = 2000 s", "condition",
              r"k \in \{0, 1, \dots, T_d\},\ T_s = 0.1\,\text{s},\ T_d = 2000\,\text{s}", "violated",
-             at={**stated(T_s), T_d: Fraction(2000)}, repair={T_s: Fraction(1), T_d: Fraction(2000)},
+             at={**stated(T_s), T_d: Fraction(2000)},
              reading="The steps of (1), each of the length T_s, make the duration T_d of the trip.",
-             note="k in {0, ..., T_d} counts steps of (1), each T_s = 0.1 s long, and (16), T_d and T_i take it for seconds. Over 2000 steps of 0.1 s the trip takes 200 s. "
-                  "Either T_s is 1 s or the trip has 20,000 steps, with k/10 in (16) and (17).")
+             note="k in {0, ..., T_d} counts steps of (1), each T_s = 0.1 s long, and T_d, T_i and (16) take it for seconds: 2000 steps of 0.1 s are 200 s, and (16), read in m/s, begins with 0.41 m/s in one step "
+                  "(16.force). Either T_s is 1 s, or the trip has 20,000 steps, with k/10 in (16) and (17). For u in N/kg the first needs a lambda above 0.00375, which Table 1's is not (theorem1.stated.mass.1s.contracts); "
+                  "for the second it is large enough (theorem1.stated.mass.contracts).")
 def steps_make_the_trip() -> Goal:
     """Steps times their length."""
     return Goal((equal(LENGTH * T_s, T_d),))
@@ -127,11 +128,12 @@ def coefficients_positive() -> Goal:
 @paper.claim("17.units", "(17) put into (1) gives the train its resistance", "condition",
              r"\frac{1}{M}f_b = \frac{2977 + 25.17 v + 0.2864 v^2}{M}\ \text{with (17)}", "violated", rests_on=("1", "3", "17"),
              at={**stated(M), v_i: Fraction(70), swing: Fraction(0)},
-             repair={M: Fraction(1), v_i: Fraction(70), swing: Fraction(0)}, origin="implied",
-             reading="By (1) f_b is a force, and by its numbers (17) is one in newtons over M.",
+             origin="implied",
+             reading="By (1) f_b is a force, and by its numbers (17) is one in newtons over M. Speeds are read in m/s, which the paper does not print.",
              note="(17) is divided by M, and (1) divides by M once more, so that the train runs with a resistance 350,000 "
                   "times too small. Either (17) is in N without its M, or u and, as Figure 4 has it, f_a are forces per unit of mass and "
-                  "(1) has no M (the repair M = 1); the paper does not say which, and u(k,0), lambda and the gains depend on it.")
+                  "(1) has no M. The paper does not say which, and what u(k,0) = 1500, lambda and the gains do depends on it: if (17) is in N, 1500 N does not move the train (u0.N); in N/kg the first trial is "
+                  "faster than (16) after one sample (u0.mass). The unit of u and phi_hat(k,1) should be stated.")
 def resistance_of_both() -> Goal:
     """Deceleration by (1) with (17) against the resistance in N over M, at 70 m/s."""
     per_kg = {s: (mean + part * swing) / M for s, (mean, part) in davis_newton.items()}

@@ -115,11 +115,11 @@ def resistance_by_length() -> Goal:
 
 paper.axiom("figure5", "Figures 5 and 6: tracking gets better from trial to trial",
             r"\text{the tracking at trial 100 is better than at trial 50, that is, with the number of trials it gets better every time}",
-            "read off Figures 5 and 6 by the authors", hypotheses=(), match="words", severity="data",
+            "read off Figures 5 and 6 by the authors", hypotheses=("16.samples", "17.units"), match="words", severity="data",
             note="A statement on simulations, which the study runs anew in every reading of the units. That each trial is better than the one before does not follow from two of them; of (18) see 18.norm.")
 paper.definition("mse", "The mean squared error of a trial", r"MSE_i = \sum_{k=1}^{T_i}\frac{|e^*(k, i)|^2}{T_i}",
                  note="Up to T_i the improved error e* is the error e, so that a trial is measured where it ran.")
 paper.axiom("figure7", "Figures 5 to 7: iCFDL-MFAILC tracks better than the PD law, and in fewer trials",
             r"\text{compared with the improved PD-type ILC the proposed iCFDL-MFAILC has better speed tracking within fewer trials}",
-            "read off Figures 5 to 7 by the authors", hypotheses=(), match="words", severity="data",
+            "read off Figures 5 to 7 by the authors", hypotheses=("16.samples", "17.units"), match="words", severity="data",
             note="A statement on simulations, which the study runs anew in every reading of the units; the law that it is compared with is that of 18.name.")

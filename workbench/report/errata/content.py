@@ -14,7 +14,7 @@ from workbench.report.errata.in_short import causes_told, in_short
 from workbench.report.errata.letters import with_dots
 from workbench.report.errata.mended import mended_statements
 from workbench.report.errata.rechecking import rechecking
-from workbench.report.errata.referred import lines_referred_to
+from workbench.report.errata.referred import lines_referred_to, referred_to
 from workbench.report.errata.what_holds import what_holds
 from workbench.report.finding import Finding, findings
 from workbench.report.finding_sentences import PRINTED, fate_sentence
@@ -41,13 +41,14 @@ def errata(decisions: Sequence[Decision], citation: str, at_hand: bool = True) -
     titles = {d.claim.equation: d.claim.title for d in decisions}
     context = context_of(found, decisions, PRINTED if at_hand else COMMON)
     mended, proofs = mended_statements(decisions, titles)
+    referred = referred_to(decisions, found, proofs)
     failing = any(f.verdict in FAILED for f in found)
     blocks = [Heading(1, "Corrections" if failing else "Corrections: none"), Paragraph(citation, "Paper"),
             Paragraph(ABOUT if at_hand else f"{ABOUT} {NOT_AT_HAND}"),
             Paragraph(_counts(decisions, [f.equation for f in found if f.gravity == "reading"], at_hand)),
-            *_fates(decisions, found, context), *in_short(found, context), *what_holds(decisions),
-            *evidence(found, context), *mended, *lines_referred_to(decisions, found, proofs),
-            *rechecking(decisions, found, proofs, context.numbers)]
+            *_fates(decisions, found, context), *in_short(found, context), *what_holds(decisions, context.numbers),
+            *evidence(found, context), *mended, *lines_referred_to(referred, bool(mended)),
+            *rechecking(decisions, found, proofs, referred, context.numbers)]
     return with_dots(blocks)
 
 

@@ -27,14 +27,14 @@ def mended_statements(decisions: Sequence[Decision], titles: Mapping[str, str]) 
         shown = not d.proved_under
         blocks += [Heading(3, f"{name_of_line(headlines[str(d.claim.mends)])}, mended"
                               f"{'' if shown else ', proved only where lines hold that are not shown'}"),
-                   *_stated(d, by_id, titles), *proof_told(d)]
+                   *_stated(d, by_id, titles), *proof_blocks(d)]
     found: list[Block] = [Heading(2, "The headline statements, mended and proved"), Paragraph(HOW_TO_READ),
                           *blocks] if blocks else []
     lemmas = _lemmas(mended, by_id)
     if lemmas:
         found.append(Heading(2, "The lines that these proofs use"))
     for d in lemmas:
-        found += [Heading(3, name_of_line(d)), *_stated(d, by_id, titles), *proof_told(d)]
+        found += [Heading(3, name_of_line(d)), *_stated(d, by_id, titles), *proof_blocks(d)]
     return found, [*mended, *lemmas]
 
 
@@ -71,8 +71,8 @@ def _verdict(d: Decision) -> str:
     return f"{d.verdict} where lines hold that are not shown" if d.proved_under else d.verdict
 
 
-def proof_told(d: Decision) -> list[Block]:
-    """What letters are, what is given, and the steps."""
+def proof_blocks(d: Decision) -> list[Block]:
+    """The proof of a line: what letters are, what is given, and the steps."""
     certificate = d.certificate or {}
     own, proof = letters_of(d), proof_steps(certificate)
     given = {UNDER: [*proof.signs, *proof.given], ALWAYS: proof.always}

@@ -12,6 +12,7 @@ from typing import Any
 
 from workbench.proof.checker import parse, split_relation
 from workbench.report.certificate_latex import expression_latex, factor_latex
+from workbench.report.sum_index import index_of
 
 FACTS = {"log_tangent": r"$\ln x \le x - 1$", "exp_tangent": r"$e^x \ge 1 + x$", "exp_positive": r"$e^x > 0$",
          "enclosure": "a number, enclosed by fractions", "abs_square": r"$\left|x\right|^2 = x^2$",
@@ -122,7 +123,7 @@ def _factor(item: Mapping[str, Any], given: Sequence[Known], found: Sum) -> tupl
         return [(known.mark, {"assume": 1, "inverse": -1, "square_of": 2}[kind])], (
             kind != "assume" or known.operator == ">")
     if kind == "sum_of_squares":
-        return [(rf"\sum_i {_raised(factor_latex(content, True), 2)}", 1)], False
+        return [(rf"\sum_{index_of(parse(content))} {_raised(factor_latex(content, True), 2)}", 1)], False
     if kind == "square":
         return [(factor_latex(content, True), 2)], False
     return _bases(content), kind == "positive"

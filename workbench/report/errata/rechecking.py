@@ -13,12 +13,14 @@ CHECKER = "checker.py"
 
 
 def rechecking(decisions: Sequence[Decision], found: Sequence[Finding], proofs: Sequence[Decision],
-               numbers: Mapping[str, int]) -> list[Block]:
-    """The commands, and a row for each correction, open reading and proof: its number, certificate and digest."""
+               referred: Sequence[Decision], numbers: Mapping[str, int]) -> list[Block]:
+    """The commands, and a row for each correction, open reading, proof and line referred to: its number, certificate
+    and digest."""
     paper = decisions[0].claim.paper if decisions else ""
     ordered = sorted((f for f in found if f.digest), key=lambda f: numbers.get(f.equation, len(numbers) + 1))
     rows = [(str(numbers.get(f.equation, "reading")), f.equation, str(f.digest)) for f in ordered]
-    rows += [("proof", d.claim.equation, goal_digest(d.certificate)) for d in proofs if d.certificate]
+    rows += [(kind, d.claim.equation, goal_digest(d.certificate))
+             for kind, told in (("proof", proofs), ("line", referred)) for d in told if d.certificate]
     wide = max((len(name) for _, name, _ in rows), default=0)
     table = "\n".join(f"{number:>7}  {name:<{wide}}  {digest}" for number, name, digest in rows)
     one: list[Block] = []

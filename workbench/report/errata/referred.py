@@ -9,7 +9,7 @@ from workbench.report.counterexample_cache import cached_counterexample
 from workbench.report.errata.blocks import Block, Formula, Heading, Paragraph
 from workbench.report.errata.conditions import ALONG, STATEMENT_CHECKED, UNDER, listed_conditions
 from workbench.report.errata.letters import in_blocks, legend
-from workbench.report.errata.mended import proof_told
+from workbench.report.errata.mended import proof_blocks
 from workbench.report.errata.names import lines_named, name_of_line
 from workbench.report.errata.proof_steps import HOW_TO_READ, proof_steps
 from workbench.report.finding import Finding
@@ -17,23 +17,29 @@ from workbench.report.finding_sentences import IMPLIED, PRINTED, breaks_at
 from workbench.report.hypotheses import conditions_of, motion_of
 from workbench.report.letters import letters_of
 
-SHORT, MOST_TEXT = 6, 3000  # steps, and characters of them, up to which a proof is told here
+SHORT, MOST_TEXT = 12, 3000  # steps, and characters of them, up to which a proof is told here
 LABELS = {"printed": PRINTED, "implied": IMPLIED, "ours": "Statement"}
 
 
-def lines_referred_to(decisions: Sequence[Decision], found: Sequence[Finding],
-                      proofs: Sequence[Decision]) -> list[Block]:
-    """The lines that notes and proofs name and that stand nowhere else, in the order of the paper's claims."""
+def referred_to(decisions: Sequence[Decision], found: Sequence[Finding], proofs: Sequence[Decision]) -> list[Decision]:
+    """The lines that notes and proofs name, and the mended forms of lines, that stand nowhere else, in the order of the
+    paper's claims."""
     titles = {d.claim.equation: d.claim.title for d in decisions}
     texts = [text for f in found for text in (f.reading, f.note)] + [d.claim.note for d in proofs]
     named = {name for text in texts for name in lines_named(text, titles)}
     named |= {name.partition(":")[2] for d in proofs for name in d.claim.premises}
-    named |= {name for f in found for name in f.mended_under}
+    named |= {name for f in found for name in (*f.mended_under, f.mended_by) if name}
     told = {f.equation for f in found} | {d.claim.equation for d in proofs}
-    lines = [d for d in decisions if d.claim.equation in named - told]
-    how = [Paragraph(HOW_TO_READ)] if not proofs and any(map(_is_short, lines)) else []
-    blocks = [block for d in lines for block in _line(d)]
-    return [Heading(2, "Lines referred to"), *how, *blocks] if blocks else []
+    return [d for d in decisions if d.claim.equation in named - told]
+
+
+def lines_referred_to(referred: Sequence[Decision], explained: bool) -> list[Block]:
+    """Each of these lines with its verdict and what shows it; explained: whether the document has said how its proofs
+    are read."""
+    if not referred:
+        return []
+    how = [] if explained or not any(map(_is_short, referred)) else [Paragraph(HOW_TO_READ)]
+    return [Heading(2, "Lines referred to"), *how, *(block for d in referred for block in _line(d))]
 
 
 def _line(d: Decision) -> list[Block]:
@@ -42,7 +48,7 @@ def _line(d: Decision) -> list[Block]:
                "refuted": "It does not hold.", "violated": "It does not hold at the printed numbers.",
                "gap": "It does not follow."}[d.verdict]
     return [Heading(3, name_of_line(d)), Formula(d.claim.printed, LABELS[d.claim.origin]),
-            Paragraph(verdict, "Verdict"), *(proof_told(d) if _is_short(d) else _shown(d))]
+            Paragraph(verdict, "Verdict"), *(proof_blocks(d) if _is_short(d) else _shown(d))]
 
 
 def _is_short(d: Decision) -> bool:
