@@ -61,3 +61,13 @@ def test_lines_that_only_look_alike_are_two_causes():
             if d.claim.equation == "2" else d for d in chain()]
     assert len(causes_of(findings(rows), rows)) == 3
     assert causes_of(findings([d for d in chain() if not d.claim.rests_on]), chain()) == []
+
+
+def test_of_causes_with_as_many_headlines_what_is_false_comes_before_what_does_not_follow():
+    rows = judged([
+        _line("1", "x >= 2", verdict="gap", point={"x": "0"}), _line("2", "y >= 5", point={"y": "0"}),
+        _line("3", "x >= 3", ("1",), point={"x": "0"}), _line("4", "x >= 4", ("3",), point={"x": "0"}),
+        _line("theorem1", "x >= y + 9", ("2", "4"), severity="result", point={"x": "0", "y": "0"})])
+    causes = causes_of(findings(rows), rows)
+    assert [[f.equation for f in cause] for cause in causes] == [["2"], ["1"]]
+    assert causes[0][0].lines < causes[1][0].lines

@@ -15,7 +15,8 @@ Cause = tuple[Finding, ...]
 
 
 def causes_of(found: Sequence[Finding], decisions: Sequence[Decision]) -> list[Cause]:
-    """The causes of a paper, the gravest first; a line and those that say the same in other letters are one cause.
+    """The causes of a paper, the gravest first: by the headline statements that rest on it, what is false before what
+    does not follow, then by other lines. A line and those that say the same in other letters are one cause.
 
     A line that holds in another reading of the text is none, nor is one of which nothing depends. Empty where no line
     falls with another one.
@@ -27,7 +28,8 @@ def causes_of(found: Sequence[Finding], decisions: Sequence[Decision]) -> list[C
     for f in _numbered(found):
         if f.verdict in FAILED and f.alone and f.gravity != "cosmetic" and (f.headlines or f.lines):
             groups.setdefault(goals[f.equation] or f.equation, []).append(f)
-    by_weight = sorted(groups.values(), key=lambda group: (-len(group[0].headlines), -group[0].lines))
+    by_weight = sorted(groups.values(), key=lambda group: (
+        -len(group[0].headlines), group[0].verdict == "gap", -group[0].lines))
     return [tuple(group) for group in by_weight]
 
 
