@@ -25,7 +25,7 @@ LETTERS = {
     "x_off": r"an entry of $\theta - \theta_0$",
     "delta_size": r"$|\delta|$",
     "theta_size": r"$|\theta|$",
-    "delta_any": "any positive number, $c$ where the line has it",
+    "delta_any": "any positive number",
     "deltadot": r"$\dot{\tilde\delta}$",
     "thetadot": r"$\dot{\tilde\theta}$",
     "sdot": r"$\dot{\tilde s}$",

@@ -41,11 +41,8 @@ DAMPING = ("The extracted text of (12) and (14) has k_3 v_tilde where (18), (25)
 paper.definition("11", "The estimation errors", r"\tilde{s} = \hat{s} - s,\ \tilde{v} = \hat{v} - v")
 
 
-@paper.claim("12.position", "The observer's estimate of the position", "identity", r"\dot{\hat{s}} = \hat{v} - k_1\tilde{s}",
-             "proved", rests_on=(), where=OBSERVED, reading="The rate is that of the estimate in the loop that runs.")
-def position_estimate() -> Goal:
-    """D(s_hat) of the observer."""
-    return Goal((equal(D(s_hat), v_hat - k_1 * s_error),), flow=along_printed)
+LAW_12 = r"\dot{\hat{s}} = \hat{v} - k_1\tilde{s}"
+paper.definition("12.position", "The observer's estimate of the position", LAW_12)
 
 
 u_rate, resistance_rate, d_rate = sp.symbols("udot f_d_dot ddot_ext", real=True)

@@ -1,4 +1,4 @@
-"""Section 3: the loop that runs has the laws (19)-(21) as they are printed."""
+"""Section 3: the loop that runs has the laws (12), (19)-(21) as they are printed."""
 
 from __future__ import annotations
 
@@ -22,17 +22,25 @@ from ..laws import (
     s_hat,
     s_hat_rate,
     sigma_f,
+    v_hat,
 )
 from ..notation import OBSERVED
 from ..paper import paper
 from ..plant import s, v
-from .section_3_eq_11_to_18 import along_plant
+from .section_3_eq_11_to_18 import LAW_12, along_plant, along_printed
 from .section_3_eq_19_to_21 import GAMMA_OF_SIGNAL, LAW_19, LAW_21
 
 # The laws of one neuron as they run, and the letters that they are printed in.
 printed_signal = D(s_error) + k_1 * s_error
 PRINTED_LAWS = OBSERVED | {r"\hat W_f": one_neuron(W_f_hat), "W_{f0}": one_neuron(W_f_0), r"\Gamma_f": one_neuron(g_f**2),
                            r"h_f(\hat z_1)": one_neuron(h_f), GAMMA_OF_SIGNAL: gamma_1(printed_signal)}
+
+
+@paper.claim("12.runs", "The estimate of the position runs by (12)", "identity", LAW_12, "proved", origin="ours", where=OBSERVED,
+             reading="The rate is that of the estimate in the loop that runs.")
+def position_estimate() -> Goal:
+    """D(s_hat) of the observer."""
+    return Goal((equal(D(s_hat), v_hat - k_1 * s_error),), flow=along_printed)
 
 
 @paper.claim("19.runs", "The weights of the observer run by (19)", "identity", LAW_19, "proved", origin="ours",

@@ -24,7 +24,7 @@ from ..lyapunov import (
 )
 from ..notation import ERRORS
 from ..paper import EVERY_NETWORK, paper
-from .section_5_theorem_1_eq_41_to_43 import mu_1_stated, slack
+from .section_5_theorem_1_eq_41_to_43 import mu_1_stated
 
 RHO_1 = (r"\rho_1 := \min\left\{2k_1, 2k_3, \frac{\sigma_f}{\lambda_{\min}(\Gamma_u^{-1})}, \frac{\beta_1}{\alpha_1}"
          r"\right\}")
@@ -138,12 +138,12 @@ def decay_1() -> Goal:
                 (bounded_43(), *rates_1(lambda_f), at_most(rho, beta_1 / alpha_1), smallest_f, gain_f, *estimate_alone))
 
 
-V_t, V_start, w, level = sp.symbols("V_t V_0 w Theta", real=True)
+V_t, V_start, w, level, c = sp.symbols("V_t V_0 w Theta c", real=True)
 decaying = (at_most(w, -rho * V_t + mu), at_least(t, 0))
 along_v = {t: sp.Integer(1), V_t: w}
 from_zero = {t: sp.Integer(0), V_t: V_start}
 bound_47 = mu / rho + (V_start - mu / rho) * sp.exp(-rho * t)
-in_the_end = (greater(slack, 0), at_least(V_start, 0), at_least(t, V_start / (rho * slack)))
+in_the_end = (greater(c, 0), at_least(V_start, 0), at_least(t, V_start / (rho * c)))
 
 
 @paper.claim("comparison", "What decays up to mu is bounded by its start and mu/rho", "implication",
@@ -159,26 +159,26 @@ def comparison_lemma() -> Goal:
 @paper.claim("comparison.end", "What decays up to mu comes as near to mu/rho as is wanted", "implication",
              r"\dot V \le -\rho V + \mu \Rightarrow \forall c > 0\ \exists T\ \forall t > T:\ V(t) \le \frac{\mu}{\rho} + c",
              "proved", origin="ours", premises=("comparison",),
-             where={"V": V_t, "V(t)": V_t, r"\rho": rho, r"\mu": mu, "t": t, "c": slack},
+             where={"V": V_t, "V(t)": V_t, r"\rho": rho, r"\mu": mu, "t": t, "c": c},
              note="For any V that is not negative, at the latest from t = V(0)/(rho c) on.")
 def comes_near() -> Goal:
     """What (47) means for large t."""
-    return Goal((at_most(V_t, mu / rho + slack),), (*in_the_end, at_most(V_t, bound_47)),
-                lemmas=(greater(t * rho * slack, V_start - mu / rho),))
+    return Goal((at_most(V_t, mu / rho + c),), (*in_the_end, at_most(V_t, bound_47)),
+                lemmas=(greater(t * rho * c, V_start - mu / rho),))
 
 
 def ends_near(value: sp.Expr, drive: sp.Expr, *shown: Relation) -> Goal:
     """`shown` of a V = value that comes as near to mu/rho, mu = drive, as comparison.end says."""
-    return Goal(shown, (*paper.shown("comparison.end"), equal(V_t, value), equal(mu, drive), greater(slack, 0)))
+    return Goal(shown, (*paper.shown("comparison.end"), equal(V_t, value), equal(mu, drive), greater(c, 0)))
 
 
-near_end = mu / rho + slack
+near_end = mu / rho + c
 
 
 def after_decay(i: int, decay: str, growth: str, bound: str, not_negative: str) -> None:
     """What the paper concludes from V' <= -rho V + mu, the same for both theorems."""
     letters = {f"V_{i}": V_t, f"V_{i}(t)": V_t, f"V_{i}(0)": V_start, rf"\dot V_{i}(t)": w, rf"\mu_{i}": mu,
-               rf"\rho_{i}": rho, rf"\varphi_{i}": mu / rho, rf"\Theta_{i}": level, "t": t, "c": slack}
+               rf"\rho_{i}": rho, rf"\varphi_{i}": mu / rho, rf"\Theta_{i}": level, "t": t, "c": c}
 
     @paper.claim(f"{decay}.level", f"V_{i} does not grow at the level Theta_{i}", "implication",
                  rf"V_{i} = \Theta_{i},\ \rho_{i} > (\mu_{i}/\Theta_{i}) \Rightarrow \dot V_{i}(t) \le 0", "proved",

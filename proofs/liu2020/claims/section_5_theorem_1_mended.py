@@ -13,8 +13,8 @@ from ..notation import ERRORS
 from ..paper import EVERY_NETWORK, paper
 from ..smooth_sign import constant
 from .section_5_theorem_1_eq_36_to_40 import free_1
-from .section_5_theorem_1_eq_41_to_43 import mu_1_stated, slack
-from .section_5_theorem_1_eq_44_to_48 import ends_near, near_end, norm_48, robust_size
+from .section_5_theorem_1_eq_41_to_43 import mu_1_stated
+from .section_5_theorem_1_eq_44_to_48 import c, ends_near, near_end, norm_48, robust_size
 
 mu_1_bound = positive(mu_1_stated)
 TURNED_1 = (r"\text{With a minus sign before the leakage of (19) and (21), (40), a constant}\ \delta \ge |\tilde\varepsilon_f|,\ "
@@ -49,9 +49,9 @@ prior_size, off_size = sp.symbols("W_off_square delta_off_square", nonnegative=T
 
 @paper.claim("47.small.mended", "The bound mu_1/rho_1 can be made arbitrarily small by the gains", "implication",
              r"\rho_1 = \min\left\{2k_1, 2k_3, \frac{\sigma_f}{\lambda_{\max}(\Gamma_f^{-1})}, \alpha_1\beta_1\right\}:\ "
-             r"\forall \varphi > 0\ \text{there are gains with (40) and}\ \frac{\mu_1}{\rho_1} \le \varphi", "proved", origin="ours",
+             r"\text{for fixed}\ \delta, \delta_0, W_{f0}, \kappa_1\ \text{and every}\ \varphi > 0\ \text{there are gains with (40) and}\ "
+             r"\frac{\mu_1}{\rho_1} \le \varphi", "proved", origin="ours",
              mends="47.small", rests_on=(), premises=("44.weights.mended", "44.estimate.glyph"),
-             reading="delta, kappa_1 and the priors do not change with the gains.",
              note="Witness: sigma_f = beta_1 = 1, rho = mu_1/phi, Gamma_f = rho times the "
                   "identity, alpha_1 = rho, k_1 = k_3 = rho/2, k_2 = 1 + k_1 k_3.")
 def arbitrarily_small() -> Goal:
@@ -65,17 +65,17 @@ def arbitrarily_small() -> Goal:
 
 @paper.claim("remark2.mended", "Remark 2 with the leakage turned and one delta for all gains", "implication",
              r"\text{With a minus sign before the leakage of (19) and (21) and one constant}\ \delta \ge |\tilde\varepsilon_f|\ "
-             r"\text{for all gains and times}: \forall e > 0\ \text{there are gains with}\ \frac{\mu_1}{\rho_1} \le "
-             r"\tfrac{e^2}{4},\ \text{and from some time on}\ |\tilde s| \le e,\ |\tilde v| \le e", "proved", origin="ours",
+             r"\text{for all gains and times}, \delta_0, W_{f0}, \kappa_1\ \text{fixed}: \forall r > 0\ \text{there are gains with}\ \frac{\mu_1}{\rho_1} \le "
+             r"\tfrac{r^2}{4},\ \text{and from some time on}\ |\tilde s| \le r,\ |\tilde v| \le r", "proved", origin="ours",
              mends="remark2", severity="result", rests_on=(), premises=("47.small.mended", "48.mended"), scope=EVERY_NETWORK,
              reading="mu_1 is that of (44), rho_1 = min{2 k_1, 2 k_3, sigma_f/lambda_max(Gamma_f^-1), alpha_1 beta_1}; such "
                      "gains are those of 47.small.mended. The motion, and with it eps_tilde_f, changes with the gains: one delta "
                      "bounds all of them where z_1 stays in Omega, see 18.bound.",
-             note="2 V_1 is in the end at most 2 mu_1/rho_1 + e^2/2 (48.mended, c = e^2/4), with gains that meet (40). The larger "
-                  "they are, the smaller e.", section="3")
+             note="2 V_1 is in the end at most 2 mu_1/rho_1 + r^2/2 (48.mended, c = r^2/4), with gains that meet (40). The larger "
+                  "they are, the smaller r.", section="3")
 def estimates_settle_mended() -> Goal:
-    """What 2 V_1 <= e^2 means for its first two squares."""
-    e = sp.Symbol("e", positive=True)
-    return Goal((at_most(sp.Abs(s_tilde), e), at_most(sp.Abs(v_tilde), e)),
-                (*paper.shown("48.mended"), equal(slack, e**2 / 4), at_most(mu / rho, e**2 / 4)),
-                lemmas=(at_most(s_tilde**2, e**2), at_most(v_tilde**2, e**2)))
+    """What 2 V_1 <= r^2 means for its first two squares."""
+    r = sp.Symbol("r", positive=True)
+    return Goal((at_most(sp.Abs(s_tilde), r), at_most(sp.Abs(v_tilde), r)),
+                (*paper.shown("48.mended"), equal(c, r**2 / 4), at_most(mu / rho, r**2 / 4)),
+                lemmas=(at_most(s_tilde**2, r**2), at_most(v_tilde**2, r**2)))

@@ -29,8 +29,8 @@ from .section_5_theorem_1_mended import mu_1_bound
                   "other errors are zero, for all gains (48.zero). In the motion here f_hat of (14) grows as exp(t) and D_1 as -exp(t), "
                   "while v_tilde stays where it is; the network is exact (eps_tilde = delta = 0), the priors are right, (40) holds. "
                   "That delta is not constant (38.delta) is a gap of the proof beside it. With minus signs before the leakage "
-                  "and a constant delta >= |eps_tilde_f| the theorem holds, see theorem1.mended. (40), and (12) and (21) as "
-                  "the laws that are taken, are missing among its hypotheses.")
+                  "and a constant delta >= |eps_tilde_f| the theorem holds, see theorem1.mended. (40), and (21) as a law that is "
+                  "taken, are missing among its hypotheses.")
 def theorem_1() -> Goal:
     """W_f_tilde h_f = exp(t) + a constant along the printed loop."""
     return observer_motion(at_most(weight_f * hidden_f, t))

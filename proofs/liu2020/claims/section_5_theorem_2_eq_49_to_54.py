@@ -32,31 +32,20 @@ def v2_not_negative() -> Goal:
 rate_tracking = M / chi * e_v * e_rate + over_neurons(w_v * w_v_rate) + theta_tilde * theta_rate / alpha_2
 PRINTED_50 = (r"\dot V_2 = \dot V_1 + \frac{M}{\chi}e_v\dot e_v + \tilde W_v^T\Gamma_v^{-1}\dot{\tilde W}_v + "
               r"\frac{1}{\alpha_2}\tilde\theta\dot{\tilde\theta}")
-mass_rate = sp.Symbol("Mdot", real=True)
 
 
-@paper.claim("50", "Rate of V_2 before the laws are put in", "implication", PRINTED_50, "gap", severity="cosmetic",
+@paper.claim("50", "Rate of V_2 before the laws are put in", "identity", PRINTED_50, "proved", premises=("37",),
              rests_on=("37",), scope=EVERY_NETWORK, where=ERRORS,
-             correction=lambda: Goal((equal(D(V_2), D(V_1) + rate_tracking),), flow=free_2),
-             corrected_statement=r"\dot M = 0:\quad " + PRINTED_50,
-             reading="Of M(t), as (2), (3) and (4) write it.",
-             note="The proof needs a constant M, as (1) and (9) write it and as section 6 has it: then the line holds, see "
-                  "50.mended. Of M(t) the term with the rate of M, times e_v^2/(2 chi), is missing.")
+             reading="For a constant M, as (1), (9) and section 6 have it.",
+             note="Of M(t), as (2), (3) and (4) write it, the term with the rate of M, times e_v^2/(2 chi), would be missing.")
 def v2_rate_open() -> Goal:
-    """D(V_2) with free rates, that of M among them."""
-    return Goal((equal(D(V_2), D(V_1) + rate_tracking),), flow=free_2 | {M: mass_rate})
-
-
-@paper.claim("50.mended", "Rate of V_2 for a constant mass", "identity", PRINTED_50, "proved", origin="ours", mends="50",
-             premises=("37",), rests_on=(), scope=EVERY_NETWORK, where=ERRORS)
-def v2_rate_constant_mass() -> Goal:
     """D(V_2) with free rates, M at rest."""
     return Goal((equal(D(V_2), D(V_1) + rate_tracking),), flow=free_2)
 
 
 @paper.claim("51", "Rate of V_2 once more", "identity",
              r"\dot V_2 = \frac{M}{\chi}e_v\dot e_v + \tilde W_v^T\Gamma_v^{-1}\dot{\tilde W}_v + \frac{1}{\alpha_2}"
-             r"\dot{\tilde\theta}", "refuted", severity="cosmetic", rests_on=("50.mended",), scope=EVERY_NETWORK, where=ERRORS,
+             r"\dot{\tilde\theta}", "refuted", severity="cosmetic", rests_on=("50",), scope=EVERY_NETWORK, where=ERRORS,
              correction=lambda: Goal((equal(D(V_2), D(V_1) + rate_tracking),), flow=free_2),
              corrected_statement=PRINTED_50,
              note="V_1' has been lost, and theta_tilde in the last term; (52) has both again, so nothing follows from the "
@@ -69,7 +58,7 @@ def v2_rate_without_v1() -> Goal:
 
 @paper.claim("52.theta", "The error of the estimate of theta moves as the estimate does", "implication",
              r"\tilde\theta = \hat\theta - \theta,\ \theta = \varepsilon_v(z_2) - \tfrac{M}{\chi}d(t) \Rightarrow "
-             r"\dot{\tilde\theta} = \dot{\hat\theta}", "gap", origin="implied", rests_on=("50.mended",),
+             r"\dot{\tilde\theta} = \dot{\hat\theta}", "gap", origin="implied", rests_on=("50",),
              correction=lambda: moves_alike(theta_hat, theta, constant_truth=True),
              corrected_statement=r"\theta\ \text{constant} \Rightarrow \dot{\tilde\theta} = \dot{\hat\theta}",
              note="theta contains d(t), which (70) and (71) let oscillate; the term -theta_tilde theta'/alpha_2 is missing "
@@ -110,8 +99,8 @@ LETTERS_52 = ERRORS | {"D_2": robust_52, r"\varepsilon_v(z_2)": theta + M / chi 
 MENDED_52 = LETTERS_52 | {r"\varepsilon_v(z_2)": r_v + M / chi * d}  # theta any constant
 
 
-@paper.claim("52", "Rate of V_2 with the laws", "identity", _printed_52("+"), "refuted", premises=("33.mended", "50.mended"),
-             rests_on=("32", "33", "35", "50.mended", "52.theta"),
+@paper.claim("52", "Rate of V_2 with the laws", "identity", _printed_52("+"), "refuted", premises=("33.mended", "50"),
+             rests_on=("32", "33", "35", "50", "52.theta"),
              scope=EVERY_NETWORK, where=LETTERS_52, correction=lambda: _rate_52(-1, r_v),
              corrected_statement=r"\dot\theta = 0:\quad " + _printed_52("-"),
              reading="The second bracket has z_2 where (32) has e_v, which is read; theta_tilde moves as theta_hat does.",
@@ -122,7 +111,7 @@ def v2_rate_laws() -> Goal:
 
 
 @paper.claim("52.mended", "Rate of V_2 with the laws, the weights' sign turned", "identity", _printed_52("-"), "proved",
-             origin="ours", mends="52", premises=("33.mended", "50.mended"), rests_on=(), scope=EVERY_NETWORK,
+             origin="ours", mends="52", premises=("33.mended", "50"), rests_on=(), scope=EVERY_NETWORK,
              where=MENDED_52, note="For any constant theta, whether it is eps_v - (M/chi) d or a bound of it.")
 def v2_rate_laws_mended() -> Goal:
     """D(V_2) along the closed loop with the sign of 33.mended."""
@@ -143,7 +132,7 @@ def _rate_53(learn: int, residual: sp.Expr, h_limited: bool = False) -> Goal:
                 flow=free_1 | tracking_loop(learn=learn, residual=residual))
 
 
-@paper.claim("53", "Rate of V_2, collected", "identity", PRINTED_53, "refuted", premises=("33.mended", "50.mended"),
+@paper.claim("53", "Rate of V_2, collected", "identity", PRINTED_53, "refuted", premises=("33.mended", "50"),
              rests_on=("32.cancels", "52"), scope=EVERY_NETWORK, where=ERRORS, correction=lambda: _rate_53(1, r_v),
              corrected_statement=r"\text{with}\ +h_v(z_2)e_v\ \text{in (32) and}\ \dot\theta = 0:\quad " + MENDED_53,
              reading="The accent over the last theta is read as the index 0, as in (35).",
@@ -157,7 +146,7 @@ def v2_rate_collected() -> Goal:
 
 
 @paper.claim("53.mended", "Rate of V_2, collected, for (32) turned", "identity", MENDED_53, "proved", origin="ours",
-             mends="53", premises=("32.turned", "50.mended"), rests_on=(), scope=EVERY_NETWORK,
+             mends="53", premises=("32.turned", "50"), rests_on=(), scope=EVERY_NETWORK,
              where=ERRORS | {r"\varepsilon_v(z_2)": r_v + M / chi * d},
              note="For any constant theta, whether it is eps_v - (M/chi) d or a bound of it.")
 def v2_rate_collected_mended() -> Goal:
