@@ -11,6 +11,7 @@ LETTERS = {
     "w_v": r"an entry of $\tilde W_v$ over $g_v$",
     "r_v": r"$\varepsilon_v - \frac{M}{\chi}d$",
     "W_hat_one": "the weight of one neuron",
+    "v_12": "$|v_1 - v_2|$",
     "s_begin": "where the curve begins, m",
     "s_end": "where it ends, m",
     "R_curve": "its radius, m",

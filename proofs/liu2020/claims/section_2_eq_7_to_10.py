@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal
+from workbench.proof.claim import D, Goal, at_least, at_most, equal
 
 from ..goal_forms import within
 from ..paper import paper
@@ -78,22 +78,21 @@ paper.axiom("10", "Assumption 5: a condition of Lipschitz type", PRINTED_10, "as
 
 v_1, v_2 = sp.symbols("v_1 v_2", real=True)
 L_1, L_2, v_max = sp.symbols("L_1 L_2 v_max", positive=True)
+apart = sp.Symbol("v_12", nonnegative=True)  # |v_1 - v_2|
 size_of_distance, size_of_change = sp.Abs(v_1 - v_2), sp.Abs(davis(v_1) - davis(v_2))
 LETTERS_10 = {r"\|v_1 - v_2\|": size_of_distance, r"\|f_d(v_1) - f_d(v_2)\|": size_of_change, "L_1": L_1, "L_2": L_2}
 GENERAL = "Of the general resistance (8), the additional one being the same at both speeds."
 
 
-def _lipschitz(*given: Relation) -> Goal:
-    """(10) for the general resistance (8)."""
-    return Goal((at_most(size_of_change, L_1 * size_of_distance + L_2 * size_of_distance**2),), given)
-
-
 @paper.claim("10.holds", "Assumption 5 where one of the speeds is bounded", "inequality",
              r"|v_2| \le v_{\max},\ L_1 \ge a_1 + 2a_2v_{\max},\ L_2 \ge a_2 \Rightarrow " + PRINTED_10, "proved",
-             origin="ours", where=LETTERS_10, reading=GENERAL)
+             origin="ours", reading=f"Of v_1 on either side of v_2. {GENERAL}")
 def lipschitz_for_bounded_speed() -> Goal:
-    """v_1^2 - v_2^2 is (v_1 - v_2)^2 + 2 v_2 (v_1 - v_2)."""
-    return _lipschitz(*within(v_2, v_max), at_least(L_1, a_1 + 2 * a_2 * v_max), at_least(L_2, a_2))
+    """The speeds v_2 + v_12 and v_2 - v_12 against v_2."""
+    bound = L_1 * apart + L_2 * apart**2
+    changes = [davis(v_2 + side * apart) - davis(v_2) for side in (1, -1)]
+    return Goal(tuple(at_most(sign * change, bound) for change in changes for sign in (1, -1)),
+                (*within(v_2, v_max), at_least(L_1, a_1 + 2 * a_2 * v_max), at_least(L_2, a_2)))
 
 
 @paper.claim("10.everywhere", "Assumption 5 for all speeds", "inequality", PRINTED_10, "refuted", origin="ours",
@@ -102,4 +101,5 @@ def lipschitz_for_bounded_speed() -> Goal:
 def lipschitz_for_all_speeds() -> Goal:
     """The general resistance (8) at two speeds chosen after L_1 and L_2."""
     witness = (L_1 + L_2) / (2 * a_2)
-    return _lipschitz(equal(v_2, witness), equal(v_1, witness + 1))
+    return Goal((at_most(size_of_change, L_1 * size_of_distance + L_2 * size_of_distance**2),),
+                (equal(v_2, witness), equal(v_1, witness + 1)))
