@@ -177,7 +177,7 @@ CANCELS = ERRORS | {"D_2": in_errors(robust_2)}
              reading="What (53) needs of it, along the loop itself and without the leakage: the rate of the squares of e_v and "
                      "W_v_tilde in V_2 is then -k_5 e_v^2 + e_v (theta - D_2).",
              note="With (33) as printed the terms cancel on paper; in the loop the law doubles the cross term, and the weights "
-                  "diverge: a saddle, see 32.loop. For its last term see 32.leakage.")
+                  "diverge: a saddle, see 32.loop. For its last term, and (32) with both signs turned, see 32.leakage.")
 def tracking_weights_cancel() -> Goal:
     """With the law as printed."""
     return _learning(-1, h_limited=True)
