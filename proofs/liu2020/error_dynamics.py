@@ -1,7 +1,8 @@
 """The closed loop in error coordinates.
 
-The gain matrices are taken in coordinates in which they are diagonal, Gamma = diag(g_j^2), which loses nothing because
-the hidden functions are arbitrary; w = Gamma^(-1/2) W_tilde, so that W_tilde^T Gamma^(-1) W_tilde is the sum of w_j^2.
+The gain matrices are taken along their eigenvectors, Gamma = diag(g_j^2), which loses nothing: weights and hidden
+functions are turned alike, by which norms and products stay; w = Gamma^(-1/2) W_tilde, so that W_tilde^T Gamma^(-1) W_tilde
+is the sum of w_j^2.
 Both networks share one index: the smaller one is filled up with neurons whose hidden function is zero.
 """
 
@@ -47,6 +48,7 @@ from .plant import M, chi, d, s, v
 
 W_f_star, h_z, W_v_star = map(indexed, ("W_f_star", "h_z", "W_v_star"))
 eps_f, eps_v, eps_tilde = sp.symbols("epsilon_f epsilon_v epsilon_f_tilde", real=True)
+r_v = sp.Symbol("r_v", real=True)  # eps_v - (M/chi) d
 
 t = sp.Symbol("t", real=True)
 delta_tilde, theta_tilde, delta, theta = sp.symbols("delta_tilde theta_tilde delta theta", real=True)

@@ -10,7 +10,8 @@ right of `equal` and `at_most` is what the paper prints.
 
 In the extracted text hats and tildes are mixed up, and (62) to (68) are missing; an accent is read as the surrounding
 equations force. Where a derivative, a fraction or a letter is open, the numbered row decides what the text shows and its
-`.glyph` row the other reading. What mends a line is a row of its own, `.mended`.
+`.glyph` row the other reading. What mends a line is a row of its own, `.mended`. The laws are definitions; rows `.runs`
+decide that the loop that is simulated has them.
 """
 
 from __future__ import annotations

@@ -92,3 +92,13 @@ def test_a_statement_that_holds_by_another_way_is_not_counted_among_those_that_f
     text = markdown(errata(judged([*chain(), Decision(holds, "proved", "by hand", "exact", 0.0, shown)]), CITATION))
     assert "3 more lines fail and rest on causes. One headline statement holds, but the text's way to it passes" in text
     assert "Theorem 2 (it holds) holds, but not by the way of the text" in text and "## What holds" not in text
+
+
+def test_of_causes_with_as_many_headlines_what_is_false_comes_before_what_does_not_follow():
+    rows = judged([
+        _line("1", "x >= 2", verdict="gap", point={"x": "0"}), _line("2", "y >= 5", point={"y": "0"}),
+        _line("3", "x >= 3", ("1",), point={"x": "0"}), _line("4", "x >= 4", ("3",), point={"x": "0"}),
+        _line("theorem1", "x >= y + 9", ("2", "4"), severity="result", point={"x": "0", "y": "0"})])
+    causes = causes_of(findings(rows), rows)
+    assert [[f.equation for f in cause] for cause in causes] == [["2"], ["1"]]
+    assert causes[0][0].lines < causes[1][0].lines

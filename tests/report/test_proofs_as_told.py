@@ -45,7 +45,8 @@ class Reader:
             if item.text.startswith("To show: "):
                 wanted = item.text[len("To show: $"):-2]
             elif found := CASE.fullmatch(item.text):
-                left_out = left_out if self.meets(found, item.depth) else item.depth
+                inside = left_out is not None  # of a case that is left out
+                left_out = left_out if inside or self.meets(found, item.depth) else item.depth
             elif left_out is None:
                 self.check(item.text, wanted)
         return self.read

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal
+from workbench.proof.claim import D, Goal, at_least, at_most, equal
 
 from ..goal_forms import within
 from ..paper import paper
@@ -70,38 +70,36 @@ paper.axiom("assumption3", "Assumption 3: bounded parameters and disturbance",
 paper.axiom("assumption4", "Assumption 4: bounded ideal weights", r"\|W^*\| \le \|W_N\|",
             "assumption of the paper", hypotheses=(), severity="data")
 
+PRINTED_10 = r"\|f_d(v_1) - f_d(v_2)\| \le L_1\|v_1 - v_2\| + L_2\|v_1 - v_2\|^2"
+paper.axiom("10", "Assumption 5: a condition of Lipschitz type", PRINTED_10, "assumption of the paper",
+            hypotheses=("10.holds",), severity="data",
+            note="No range of speeds is printed. The speeds of a train are bounded, and then it holds (10.holds); for all "
+                 "speeds no constants do (10.everywhere). The proofs of the theorems do not use it.")
+
 v_1, v_2 = sp.symbols("v_1 v_2", real=True)
 L_1, L_2, v_max = sp.symbols("L_1 L_2 v_max", positive=True)
-
-
-def _lipschitz(*given: Relation) -> Goal:
-    """(10) for the general resistance (8); v_1 >= v_2 without loss."""
-    distance, change = v_1 - v_2, davis(v_1) - davis(v_2)
-    bound = L_1 * distance + L_2 * distance**2
-    return Goal((at_most(change, bound), at_most(-change, bound)), (at_least(distance, 0), *given))
-
-
+apart = sp.Symbol("v_12", nonnegative=True)  # |v_1 - v_2|
 size_of_distance, size_of_change = sp.Abs(v_1 - v_2), sp.Abs(davis(v_1) - davis(v_2))
+LETTERS_10 = {r"\|v_1 - v_2\|": size_of_distance, r"\|f_d(v_1) - f_d(v_2)\|": size_of_change, "L_1": L_1, "L_2": L_2}
+GENERAL = "Of the general resistance (8), the additional one being the same at both speeds."
 
 
-def _bounded_speeds() -> Goal:
-    """With |v| <= v_max, for every L_1 of at least a_1 + 2 a_2 v_max."""
-    return _lipschitz(*(relation for speed in (v_1, v_2) for relation in within(speed, v_max)),
-                      at_least(L_1, a_1 + 2 * a_2 * v_max))
+@paper.claim("10.holds", "Assumption 5 where one of the speeds is bounded", "inequality",
+             r"|v_2| \le v_{\max},\ L_1 \ge a_1 + 2a_2v_{\max},\ L_2 \ge a_2 \Rightarrow " + PRINTED_10, "proved",
+             origin="ours", reading=f"Of v_1 on either side of v_2. {GENERAL}")
+def lipschitz_for_bounded_speed() -> Goal:
+    """The speeds v_2 + v_12 and v_2 - v_12 against v_2."""
+    bound = L_1 * apart + L_2 * apart**2
+    changes = [davis(v_2 + side * apart) - davis(v_2) for side in (1, -1)]
+    return Goal(tuple(at_most(sign * change, bound) for change in changes for sign in (1, -1)),
+                (*within(v_2, v_max), at_least(L_1, a_1 + 2 * a_2 * v_max), at_least(L_2, a_2)))
 
 
-@paper.claim("10", "Assumption 5: a condition of Lipschitz type", "inequality",
-             r"\|f_d(v_1) - f_d(v_2)\| \le L_1\|v_1 - v_2\| + L_2\|v_1 - v_2\|^2", "refuted", severity="cosmetic",
-             where={r"\|v_1 - v_2\|": size_of_distance, r"\|f_d(v_1) - f_d(v_2)\|": size_of_change,
-                    "L_1": L_1, "L_2": L_2},
-             reading="With constants L_1, L_2 for all speeds, as printed; decided for v_1 > v_2 >= 0 and the general "
-                     "resistance (8), the additional one being the same at both.",
-             correction=_bounded_speeds,
-             corrected_statement=r"|v_i| \le v_{\max},\ L_1 \ge a_1 + 2a_2v_{\max} \Rightarrow |f_d(v_1) - f_d(v_2)| \le "
-                                 r"L_1|v_1 - v_2| + L_2|v_1 - v_2|^2",
-             note="Whatever L_1 and L_2 are: the speeds named in the goal, v_2 = (L_1 + L_2)/(2 a_2) and v_1 = v_2 + 1, "
-                  "break it. For the speeds of a train it holds, and the proofs of the theorems do not use it.")
+@paper.claim("10.everywhere", "Assumption 5 for all speeds", "inequality", PRINTED_10, "refuted", origin="ours",
+             where=LETTERS_10, reading=f"With constants for all speeds. {GENERAL}",
+             note="Whatever L_1 and L_2 are: v_2 = (L_1 + L_2)/(2 a_2) and v_1 = v_2 + 1 break it.")
 def lipschitz_for_all_speeds() -> Goal:
     """The general resistance (8) at two speeds chosen after L_1 and L_2."""
     witness = (L_1 + L_2) / (2 * a_2)
-    return Goal((at_most(size_of_change, L_1 * size_of_distance + L_2 * size_of_distance**2),), (equal(v_2, witness), equal(v_1, witness + 1)))
+    return Goal((at_most(size_of_change, L_1 * size_of_distance + L_2 * size_of_distance**2),),
+                (equal(v_2, witness), equal(v_1, witness + 1)))

@@ -41,11 +41,8 @@ DAMPING = ("The extracted text of (12) and (14) has k_3 v_tilde where (18), (25)
 paper.definition("11", "The estimation errors", r"\tilde{s} = \hat{s} - s,\ \tilde{v} = \hat{v} - v")
 
 
-@paper.claim("12.position", "The observer's estimate of the position", "identity", r"\dot{\hat{s}} = \hat{v} - k_1\tilde{s}",
-             "proved", rests_on=(), where=OBSERVED, reading="The rate is that of the estimate in the loop that runs.")
-def position_estimate() -> Goal:
-    """D(s_hat) of the observer."""
-    return Goal((equal(D(s_hat), v_hat - k_1 * s_error),), flow=along_printed)
+LAW_12 = r"\dot{\hat{s}} = \hat{v} - k_1\tilde{s}"
+paper.definition("12.position", "The observer's estimate of the position", LAW_12)
 
 
 u_rate, resistance_rate, d_rate = sp.symbols("udot f_d_dot ddot_ext", real=True)
@@ -99,8 +96,8 @@ def position_estimate_rate() -> Goal:
 
 
 @paper.claim("14", "Rate of the speed estimate's error", "identity",
-             r"\dot{\tilde v} = \hat f(z_1) - f(z_1) - k_2\tilde s - k_3\tilde v + D_1", "proved", rests_on=(),
-             glyph="14.glyph", scope=EVERY_NETWORK, where=OBSERVED, note=DAMPING)
+             r"\dot{\tilde v} = \hat f(z_1) - f(z_1) - k_2\tilde s - k_3\tilde v + D_1", "proved", premises=("12",),
+             rests_on=(), glyph="14.glyph", scope=EVERY_NETWORK, where=OBSERVED, note=DAMPING)
 def speed_error_rate() -> Goal:
     """D(v_hat - v) along (9), (12) as printed."""
     return Goal((equal(D(v_error), f_hat - acceleration - k_2 * s_error - k_3 * v_error + D_1),), flow=along_printed)
@@ -150,8 +147,8 @@ def _with_what_changes() -> Goal:
              corrected_statement=r"f = f_z(z_1) + r(t),\ |f_z - W_f^{*T}h_f(z_1)| \le \varepsilon_N,\ |r(t)| \le r_{\max} "
                                  r"\Rightarrow |f - W_f^{*T}h_f(z_1)| \le \varepsilon_N + r_{\max}",
              note="f contains d(t), and a_i(t), l(t), so eps_f depends on the time too. Assumption 3 bounds what they do: with "
-                  "eps_f(z_1, t) and a larger eps_{f,N} (15) serves as it is used, see 15.function.mended. How small "
-                  "eps_{f,N} can be is then no question of the network's size: no less than half of what f changes at the "
+                  "eps_f(z_1, t) and a larger bound (15) serves as it is used, see 15.function.mended. How small "
+                  "that bound can be is then no question of the network's size: no less than half of what f changes at the "
                   "same z_1.")
 def f_depends_on_z1() -> Goal:
     """f of (9) at two instants with the same position, speed and input."""
@@ -220,8 +217,17 @@ def speed_error_rate_networks_by_rate() -> Goal:
                 flow=along_plant | by_networks)
 
 
-W_N, neurons = sp.symbols("W_N m_f", positive=True)
+W_N, root_of_m = sp.symbols("W_N root_m", positive=True)
 h_change = indexed("h_change")
+
+
+def _bounded_error() -> Goal:
+    given = (at_most(over_neurons(W_f_star**2), W_N**2), at_most(over_neurons(h_change**2), root_of_m**2),
+             *within(eps_f, eps_limit))
+    product, largest = over_neurons(W_f_star * h_change), W_N * root_of_m
+    young = tuple(at_most(sign * product * largest, largest**2) for sign in (1, -1))
+    return Goal(within(product - eps_f, largest + eps_limit), given, lemmas=(*young, *within(product, largest)))
+
 
 paper.axiom("18.lipschitz", "The hidden functions are Lipschitz",
             r"\|h_f(\hat z_1) - h_f(z_1)\| \le L_\phi\|\hat z_1 - z_1\|", "the paper's [34]; true of Gaussians",
@@ -231,11 +237,17 @@ paper.axiom("18.lipschitz", "The hidden functions are Lipschitz",
 
 @paper.claim("18.bounded", "The error of the networks is bounded", "inequality",
              r"\text{A bounded function}\ \delta = \tilde\varepsilon_f(z_1)\ \text{exists}", "proved", match="words",
-             premises=("15",), rests_on=("15", "18.lipschitz"), scope=EVERY_NETWORK,
-             reading="|eps_tilde_f| <= (|W_N|^2 + m)/2 + eps_N for m neurons, whose outputs lie between 0 and 1 so that "
-                     "the squares of their differences add up to m at most.")
+             premises=("15", "18.bound"), rests_on=("15", "18.lipschitz"), scope=EVERY_NETWORK,
+             reading="By 18.bound, while z_1 stays in Omega.")
 def network_error_bounded() -> Goal:
-    """W*^T h_change - eps_f with h_change = h_f(z_1_hat) - h_f(z_1), by Young's inequality, term by term."""
-    given = (at_most(over_neurons(W_f_star**2), W_N**2), at_most(over_neurons(h_change**2), neurons),
-             *within(eps_f, eps_limit))
-    return Goal(within(over_neurons(W_f_star * h_change) - eps_f, (W_N**2 + neurons) / 2 + eps_limit), given)
+    """W*^T h_change - eps_f with h_change = h_f(z_1_hat) - h_f(z_1)."""
+    return _bounded_error()
+
+
+@paper.claim("18.bound", "A constant that bounds the error of the networks", "inequality",
+             r"z_1 \in \Omega:\ |\tilde\varepsilon_f| \le \|W_{f,N}\|\sqrt{m} + \varepsilon_{f,N}", "proved", origin="ours",
+             scope=EVERY_NETWORK,
+             reading="The m hidden outputs lie between 0 and 1, so that the squares of their differences add up to m at most.")
+def network_error_bound() -> Goal:
+    """By the inequality of Cauchy and Schwarz."""
+    return _bounded_error()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from workbench.model.law import over_neurons
-from workbench.proof.claim import D, Goal, at_least, at_most, equal
+from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal
 
 from ..error_dynamics import W_f_star, eps_tilde, t
 from ..goal_forms import within
@@ -215,36 +215,41 @@ def uncertainty_contains_input() -> Goal:
 
 u_other = sp.Symbol("u_other", real=True)
 feed_through = v_hat_rate + chi / M * u  # an observer that is told the input, f_hat for the rest of (9)
+weight, centre, others = sp.symbols("W_hat_one c_input distance", real=True)
+spread = sp.Symbol("sigma_h", positive=True)
+network_with_input = weight * sp.exp(-((u - centre) ** 2 + others) / spread**2)  # f_hat of (16), (17), one neuron
+MOVED = r"\frac{M}{\chi}(\dot e_v|_u - \dot e_v|_{u'}) = -(u - u')"
 
 
-def _input_drives(estimate_rate: sp.Expr) -> Goal:
+def _input_drives(estimate_rate: sp.Expr, *given: Relation) -> Goal:
     """The rates of e_v at two inputs, all else the same, by the observer's rate of v_hat."""
     rate = k_4 * (sdot_d - s_hat_rate) + sddot_d - estimate_rate  # 24.glyph
     driven = M / chi * (rate - rate.xreplace({u: u_other}))
-    return Goal((equal(driven, -(u - u_other)),))
+    return Goal((equal(driven, -(u - u_other)),), given)
 
 
 @paper.claim("26.input", "The input drives e_v", "identity",
-             r"\frac{M}{\chi}\dot e_v = f_v - \frac{M}{\chi}d(t) - u(t),\ f_v\ \text{the same for}\ u\ \text{and}\ u' "
-             r"\Rightarrow \frac{M}{\chi}(\dot e_v|_u - \dot e_v|_{u'}) = -(u - u')", "refuted", origin="implied",
-             premises=("24.glyph",), rests_on=(), scope=EVERY_NETWORK, correction=lambda: _input_drives(feed_through),
-             reading="What (31) is designed for, by the last line of (26). f_hat and all states are the same at both inputs.",
-             corrected_statement=r"\dot{\hat v} = \frac{\chi}{M}u + \hat f - k_2\tilde s - k_3\dot{\tilde s} + D_1 "
-                                 r"\Rightarrow \frac{M}{\chi}(\dot e_v|_u - \dot e_v|_{u'}) = -(u - u')",
-             note="e_v is made of the observer's own states, and (12) does not contain u beside f_hat: u does not move e_v at "
-                  "all. The last line of (26) is an identity, but the -u in it is taken back by the +u in f_v (27.input). u "
-                  "acts on e_v only through u among the inputs of h_f(z_1_hat), times the learnt weights, whose sign and size "
-                  "nothing ensures; |eps_v| <= theta then presupposes a bounded u. Remedy: tell the observer the input, "
-                  "f_hat being the estimate of the rest of (9), see 26.input.mended; that needs chi/M.")
+             r"\text{at one position, speed, reference, estimates and weights}:\ " + MOVED, "refuted", origin="implied",
+             premises=("24.glyph",), rests_on=(), scope="one neuron", correction=lambda: _input_drives(feed_through),
+             reading="(28) makes f_v a function of z_2, which u is not in, so that by the last line of (26) e_v falls with u: "
+                     "what (31) is designed for. Of f_hat (17) one neuron is written out.",
+             corrected_statement=r"\dot{\hat v} = \frac{\chi}{M}u + \hat f - k_2\tilde s - k_3\dot{\tilde s} + D_1,\ "
+                                 r"\hat f = \widehat W_f^Th_f(\hat s, \hat v) \Rightarrow " + MOVED,
+             note="The last line of (26) is an identity, but its -u is taken back by the +u in f_v (27.input): e_v is made of "
+                  "the observer's own states, and (12) has u in f_hat alone. So u moves e_v through the inputs of h_f, times "
+                  "learnt weights whose sign and size nothing ensures; while W_f_hat = 0, not at all. |eps_v| <= theta then "
+                  "presupposes a bounded u. Remedy: tell the observer the input, f_hat being the estimate of the rest of (9) "
+                  "and u no input of it. That needs chi/M, which Assumption 3 takes for unknown.")
 def input_drives() -> Goal:
-    """By (12) with k_3 s_tilde', as (25) has it."""
-    return _input_drives(v_hat_rate)
+    """By (12) with k_3 s_tilde', as (25) has it, u among the inputs of f_hat."""
+    return _input_drives(v_hat_rate.xreplace({f_hat: network_with_input}), at_least(others, 0))
 
 
 @paper.claim("26.input.mended", "The input drives e_v where the observer is told it", "identity",
-             r"\dot{\hat v} = \frac{\chi}{M}u + \hat f - k_2\tilde s - k_3\dot{\tilde s} + D_1 "
-             r"\Rightarrow \frac{M}{\chi}(\dot e_v|_u - \dot e_v|_{u'}) = -(u - u')", "proved", origin="ours",
-             mends="26.input", premises=("24.glyph",), scope=EVERY_NETWORK)
+             r"\dot{\hat v} = \frac{\chi}{M}u + \hat f - k_2\tilde s - k_3\dot{\tilde s} + D_1,\ "
+             r"\hat f = \widehat W_f^Th_f(\hat s, \hat v) \Rightarrow " + MOVED, "proved", origin="ours",
+             mends="26.input", premises=("24.glyph",), scope=EVERY_NETWORK,
+             reading="u is no input of h_f, so that f_hat is the same at both.")
 def input_drives_mended() -> Goal:
     """With (chi/M) u in the rate of v_hat."""
     return _input_drives(feed_through)

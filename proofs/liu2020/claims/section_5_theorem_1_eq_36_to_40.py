@@ -5,7 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from workbench.model.law import over_neurons
-from workbench.proof.claim import D, Goal, at_least, equal
+from workbench.proof.claim import D, Goal, Relation, at_least, equal
 
 from ..error_dynamics import (
     W_f_off,
@@ -19,8 +19,8 @@ from ..error_dynamics import (
     w_f,
     w_v,
 )
-from ..goal_forms import moves_alike
-from ..laws import alpha_1, beta_1, delta_hat, e_v, gamma_1, h_f, indexed, k_1, k_2, k_3, s_tilde, sigma_f, v_tilde
+from ..goal_forms import moves_alike, small_hidden, with_gain
+from ..laws import alpha_1, beta_1, delta_hat, e_v, g_f, gamma_1, h_f, indexed, k_1, k_2, k_3, s_tilde, sigma_f, v_tilde
 from ..lyapunov import V_1
 from ..notation import ERRORS
 from ..paper import EVERY_NETWORK, paper
@@ -72,7 +72,7 @@ def v1_rate_again() -> Goal:
              corrected_statement=r"\delta\ \text{constant} \Rightarrow \dot{\tilde\delta} = \dot{\hat\delta}",
              note="The step from (38) to (39). delta = eps_tilde(z_1) changes with position, speed and input, so "
                   "-delta_tilde delta'/alpha_1 is missing from (39). A constant bound delta of |eps_tilde| avoids it, "
-                  "such as that of 18.bounded, and that reading also mends 42.delta.")
+                  "such as that of 18.bound, and that reading also mends 42.delta.")
 def delta_moves() -> Goal:
     """D(delta_hat - delta) with a moving delta."""
     return moves_alike(delta_hat, delta)
@@ -108,13 +108,13 @@ PRINTED_39, MENDED_39 = _printed_39(r"\delta"), _printed_39(r"\tilde\varepsilon_
 delta_dot = sp.Symbol("delta_dot", real=True)
 
 
-def _rate_of_v1(moving_delta: bool) -> Goal:
+def _rate_of_v1(moving_delta: bool, *given: Relation) -> Goal:
     """D(V_1) along (13), (18)-(21) against both lines of (39): delta the residual itself, or a constant beside it."""
     residual = delta if moving_delta else eps_tilde
     flow, (first, second) = observer_loop(residual=residual), _lines_39(residual)
     if moving_delta:
         flow = flow | {delta: delta_dot, delta_tilde: flow[delta_tilde] - delta_dot}
-    return Goal((equal(D(V_1), first), equal(first, second)), flow=flow)
+    return Goal((equal(D(V_1), first), equal(first, second)), given, flow=flow)
 
 
 @paper.claim("39", "Rate of V_1 in closed loop", "identity", PRINTED_39, "refuted",
@@ -131,7 +131,7 @@ def _rate_of_v1(moving_delta: bool) -> Goal:
                   "(19) and (21) have it.")
 def v1_rate_closed() -> Goal:
     """D(V_1) along (13), (18)-(21), delta moving."""
-    return _rate_of_v1(moving_delta=True)
+    return _rate_of_v1(True, *small_hidden(h_f), *with_gain(g_f))
 
 
 @paper.claim("39.mended", "Rate of V_1 in closed loop for a constant delta", "identity", MENDED_39, "proved",

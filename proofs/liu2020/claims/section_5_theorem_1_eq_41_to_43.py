@@ -8,8 +8,8 @@ from workbench.model.law import over_neurons
 from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, greater
 
 from ..error_dynamics import W_f_off, W_f_tilde, delta, delta_off, delta_tilde, eps_tilde, observer_loop
-from ..goal_forms import small_hidden, within
-from ..laws import beta_1, gamma_1, h_f, indexed, k_1, k_2, k_3, kappa_1, s_tilde, sigma_f, v_tilde
+from ..goal_forms import small_hidden, with_gain, within
+from ..laws import beta_1, g_f, gamma_1, h_f, indexed, k_1, k_2, k_3, kappa_1, s_tilde, sigma_f, v_tilde
 from ..lyapunov import V_1, delta_size, norm_f, positive, prior_f
 from ..notation import ERRORS
 from ..paper import EVERY_NETWORK, paper
@@ -46,12 +46,12 @@ def lemma_1() -> Goal:
 @paper.claim("41.reversed", "Lemma 1 for an error of the opposite sign, estimate minus truth", "inequality",
              r"\tilde\theta = \hat\theta - \theta:\quad \tilde\theta^T(\hat\theta - \theta_0) = -\|\tilde\theta\|^2 + "
              r"\tilde\theta^T(\theta - \theta_0) \le -\tfrac12\|\tilde\theta\|^2 + \tfrac12\|\theta - \theta_0\|^2",
-             "refuted", origin="implied", rests_on=(), scope=EVERY_DIMENSION, correction=lambda: _lemma_1(1, -1),
+             "refuted", origin="ours", rests_on=(), scope=EVERY_DIMENSION, correction=lambda: _lemma_1(1, -1),
              corrected_statement=r"-\tilde\theta^T(\hat\theta - \theta_0) \le -\tfrac12\|\tilde\theta\|^2 + "
                                  r"\tfrac12\|\theta - \theta_0\|^2",
              reading="The errors W_tilde, delta_tilde and theta_tilde that (42) and (54) apply the lemma to.",
-             note="With estimate minus truth the square has a plus sign. Hence the leakage of (19), (21), (32), (35) has the "
-                  "wrong sign, and both theorems fall as printed; with minus signs there the mended form serves.")
+             note="With estimate minus truth the square has a plus sign; with minus signs before the leakage of (19), (21), "
+                  "(32), (35) the mended form serves.")
 def lemma_1_reversed() -> Goal:
     """With the paper's estimation errors."""
     return _lemma_1(1)
@@ -87,8 +87,8 @@ def lemma_2() -> Goal:
 known = sp.Symbol("delta_known", positive=True)
 
 
-@paper.claim("lemma2.glyph", "Lemma 2 with delta for kappa and for h delta", "inequality",
-             r"h\|x\| - x^Th\tanh(\upsilon hx/\delta) \le \delta", "proved", origin="ours", glyph="lemma2",
+@paper.claim("lemma2.glyph", "Lemma 2 with delta for kappa and for h delta, for a scalar x", "inequality",
+             r"h|x| - xh\tanh(\upsilon hx/\delta) \le \delta", "proved", origin="ours", glyph="lemma2",
              scope="x in one dimension, the case that the proofs use", where=LEMMA_2 | {r"\delta": known},
              premises=("lemma2.constant",))
 def lemma_2_known() -> Goal:
@@ -165,13 +165,17 @@ robust_claims("42", "delta", (v_tilde, eps_tilde, delta, kappa_1),
               (r"\tilde v", r"\tilde\varepsilon_f", r"\delta", r"\kappa_1"), "eps_tilde")
 
 
+OPPOSITE = ("Lemma 1 is for truth minus estimate, the errors here are estimate minus truth, see 41.reversed. True when the "
+            "leakage enters with minus.")
+
+
 def leak_claims(equation: str, name: str, leak: sp.Expr, printed: sp.Expr, bound: sp.Expr,
                 latex: tuple[str, str, str], leakage: str, remark: str) -> None:
     """State Lemma 1 as it is applied to the leakage of an estimate; latex: its left side, middle and right side."""
     scope = EVERY_NETWORK if leak.has(sp.Sum) else "all values of the domain"
 
     @paper.claim(f"{equation}.{name}", f"Lemma 1 applied to the leakage of {name}", "inequality",
-                 rf"{latex[0]} = {latex[1]} \le {latex[2]}", "refuted", rests_on=("41.reversed", leakage), where=ERRORS,
+                 rf"{latex[0]} = {latex[1]} \le {latex[2]}", "refuted", rests_on=("41", leakage), where=ERRORS,
                  scope=scope, correction=lambda: Goal((at_most(-leak, bound),)),
                  corrected_statement=rf"-{latex[0]} \le {latex[2]}", note=remark,
                  reading="Accents and signs of norms as (19), (21), (32), (35) and Lemma 1 have them.")
@@ -192,12 +196,12 @@ leak_claims("42", "weights", leak_f, sigma_f * (-norm_f + over_neurons(W_f_tilde
             (r"\sigma_f\tilde W_f^T(\hat W_f - W_{f0})",
              r"\sigma_f(-\|\tilde W_f\|^2 + \tilde W_f^T(W_f - W_{f0}))",
              r"-\frac{\sigma_f}{2}\|\tilde W_f\|^2 + \frac{\sigma_f}{2}\|W_f - W_{f0}\|^2"),
-            "19.leakage", "See 41.reversed; true when the leakage enters with minus.")
+            "19.leakage", OPPOSITE)
 leak_claims("42", "estimate", leak_delta, -beta_1 * delta_tilde**2 + beta_1 * delta_tilde * delta_off,
             bound_delta,
             (r"\beta_1\tilde\delta(\hat\delta - \delta_0)", r"-\beta_1\tilde\delta^2 + \beta_1\tilde\delta"
              r"(\delta - \delta_0)", r"-\frac{\beta_1}{2}\tilde\delta^2 + \frac{\beta_1}{2}(\delta - \delta_0)^2"),
-            "21.leakage", "See 41.reversed; true when the leakage enters with minus. (42) prints this line twice.")
+            "21.leakage", f"{OPPOSITE} (42) prints this line twice.")
 
 mu_1_stated = sigma_f / 2 * prior_f + beta_1 / 2 * delta_off**2 + constant * kappa_1 * delta_size
 bound_43 = (-k_1 * s_tilde**2 - k_3 * v_tilde**2 - sigma_f / 2 * norm_f - beta_1 / 2 * delta_tilde**2 + mu_1_stated)
@@ -226,7 +230,8 @@ def _mended_43() -> Goal:
                   "(42.delta.size).")
 def v1_rate_bound() -> Goal:
     """D(V_1) along (13), (18)-(21) against the printed bound, for delta >= 0."""
-    return Goal((at_most(D(V_1), bound_43),), (condition_40, at_least(delta, 0), *small_hidden(h_f)), observer_loop())
+    return Goal((at_most(D(V_1), bound_43),), (condition_40, at_least(delta, 0), *small_hidden(h_f),
+                                            *with_gain(g_f)), observer_loop())
 
 
 @paper.claim("43.mended", "Bound of the rate of V_1, leakage turned", "inequality",

@@ -4,38 +4,42 @@ from __future__ import annotations
 
 import sympy as sp
 
-from workbench.proof.claim import D, Goal, at_most, equal, greater
+from workbench.proof.claim import D, Goal, at_most, equal
 
 from ..error_dynamics import delta_tilde, eps_tilde, observer_loop, t
 from ..exact_motions import hidden_f, observer_motion, weight_f
 from ..laws import alpha_1, beta_1, k_1, k_2, k_3, kappa_1, s_tilde, sigma_f, v_tilde
-from ..lyapunov import V_f, bounded_by_eigenvalue, largest_f, mu, norm_f, positive, rho, square_f
+from ..lyapunov import V_f, bounded_by_eigenvalue, largest_f, norm_f, rho, square_f
 from ..notation import ERRORS
 from ..paper import EVERY_NETWORK, paper
 from ..smooth_sign import smooth_sign_facts
 from .section_5_theorem_1_eq_36_to_40 import free_1
-from .section_5_theorem_1_eq_41_to_43 import delta_bounds, mu_1_stated, slack, smooth_1
-from .section_5_theorem_1_eq_44_to_48 import V_t
+from .section_5_theorem_1_eq_41_to_43 import delta_bounds, smooth_1
+from .section_5_theorem_1_eq_44_to_48 import ends_near, errors_vanish, near_end
+from .section_5_theorem_1_mended import mu_1_bound
 
 
 @paper.claim("theorem1", "Theorem 1: all signals of the observer are ultimately bounded", "limit",
              r"\text{all the signals in the closed-loop systems}\ (13)\ \text{and}\ (14)\ \text{are uniformly "
              r"ultimately bounded}", "refuted",
              severity="result", match="words", closed_loop=True, rests_on=("15", "43"), scope="one neuron",
-             reading="A bounded signal is in the end below t, so W_f_tilde^T h_f would be, along (13), (18) to (21).",
-             note="With an exact network (eps_tilde = delta = 0), right priors and (40), the printed loop has a solution in "
-                  "which f_hat grows as exp(t) and D_1 as -exp(t), while v_tilde stays where it is: the leakage of (19) "
-                  "and (21) drives the estimates away from their priors. Simpler still, delta_hat leaves its prior as "
-                  "exp(alpha_1 beta_1 t) while all other errors are zero, for all gains (48.zero). With minus signs there "
-                  "and a constant delta >= |eps_tilde_f| the theorem holds, see theorem1.mended. (40), and (12) and (21) as "
-                  "the laws that are taken, are missing among its hypotheses.")
+             reading="Along (13), (18) to (21): a bounded signal is in the end below t. Decided of W_f_tilde^T h_f, which is f_hat - f of "
+                     "(14) where the network is exact.",
+             note="The leakage alone does it: with the plus sign of (21) delta_hat leaves its prior as exp(alpha_1 beta_1 t) while all "
+                  "other errors are zero, for all gains (48.zero). In the motion here f_hat of (14) grows as exp(t) and D_1 as -exp(t), "
+                  "while v_tilde stays where it is; the network is exact (eps_tilde = delta = 0), the priors are right, (40) holds. "
+                  "That delta is not constant (38.delta) is a gap of the proof beside it. With minus signs before the leakage "
+                  "and a constant delta >= |eps_tilde_f| the theorem holds, see theorem1.mended. (40), and (21) as a law that is "
+                  "taken, are missing among its hypotheses.")
 def theorem_1() -> Goal:
     """W_f_tilde h_f = exp(t) + a constant along the printed loop."""
     return observer_motion(at_most(weight_f * hidden_f, t))
 
 
+errors_vanish(1, "48", ("43",))
+
+
 V_weighted = (k_2 + k_1 * k_3) * s_tilde**2 / 2 + v_tilde**2 / 2 + V_f + delta_tilde**2 / (2 * alpha_1)
-mu_1_bound = positive(mu_1_stated)
 s_tilde_rate = sp.Symbol("s_tilde_rate", real=True)
 rate_of_s = equal(s_tilde_rate, v_tilde - k_1 * s_tilde)  # (13)
 damped = (-k_1 * k_2 * s_tilde**2 - k_3 * s_tilde_rate**2 - sigma_f / 2 * norm_f - beta_1 / 2 * delta_tilde**2
@@ -84,16 +88,14 @@ BOUND_1 = r"2\left(\frac{\mu}{\rho} + c\right)"
              LAW_1 + r"\text{for every}\ c > 0\ \text{from some time on}\ (k_2 + k_1k_3)\tilde s^2 \le " + BOUND_1 +
              rf",\ \tilde v^2 \le {BOUND_1},\ \tilde W_f^T\Gamma_f^{{-1}}\tilde W_f \le {BOUND_1},\ \tilde\delta^2 \le "
              rf"\alpha_1 \cdot {BOUND_1}", "proved", origin="ours", mends="theorem1", severity="result", rests_on=(),
-             premises=("theorem1.decay", "comparison", "48.mended"), scope=EVERY_NETWORK,
+             premises=("theorem1.decay", "comparison.end"), scope=EVERY_NETWORK,
              reading="rho is not that of (44): V has another weight on s_tilde, so that (40) is not needed.",
-             note="For all k_i > 0 all signals of the observer are uniformly ultimately bounded. V decays (theorem1.decay), so "
-                  "that V <= mu/rho + V(0) exp(-rho t) (48.mended): c counts from t = (1/rho) ln(V(0)/c) on. delta bounds "
-                  "|eps_tilde_f| while z_1 stays in Omega (15.inside), see 18.bounded for one that does. The laws still "
-                  "use v_tilde, which is not measured (19.measured).")
+             note="For all k_i > 0 the four errors of the observer are uniformly ultimately bounded; s_hat itself grows with s. V "
+                  "decays (theorem1.decay), and comparison.end says what follows: c counts at the "
+                  "latest from t = V(0)/(rho c) on. delta bounds |eps_tilde_f| while z_1 stays in Omega (15.inside), see "
+                  "18.bound for one that does. The laws still use v_tilde, which is not measured (19.measured).")
 def theorem_1_mended() -> Goal:
     """What a V near mu/rho means for each signal."""
-    ultimate, = paper.shown("48.mended")
-    level = mu_1_bound / rho + slack
-    return Goal((at_most((k_2 + k_1 * k_3) * s_tilde**2, 2 * level), at_most(v_tilde**2, 2 * level),
-                 at_most(square_f, 2 * level), at_most(delta_tilde**2, 2 * alpha_1 * level)),
-                (ultimate.subs({V_t: V_weighted, mu: mu_1_bound}), greater(slack, 0)))
+    return ends_near(V_weighted, mu_1_bound, at_most((k_2 + k_1 * k_3) * s_tilde**2, 2 * near_end),
+                     at_most(v_tilde**2, 2 * near_end), at_most(square_f, 2 * near_end),
+                     at_most(delta_tilde**2, 2 * alpha_1 * near_end))

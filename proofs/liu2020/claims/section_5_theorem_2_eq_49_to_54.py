@@ -7,15 +7,15 @@ import sympy as sp
 from workbench.model.law import over_neurons
 from workbench.proof.claim import D, Goal, at_least, equal
 
-from ..error_dynamics import W_v_off, W_v_tilde, eps_v, theta, theta_off, theta_tilde, tracking_loop, w_v
-from ..goal_forms import moves_alike, small_hidden
-from ..laws import alpha_2, beta_2, e_v, gamma_2, h_v, k_5, kappa_2, sigma_v, theta_hat
+from ..error_dynamics import W_v_off, W_v_tilde, r_v, theta, theta_off, theta_tilde, tracking_loop, w_v
+from ..goal_forms import moves_alike, small_hidden, with_gain
+from ..laws import alpha_2, beta_2, e_v, g_v, gamma_2, h_v, k_5, kappa_2, sigma_v, theta_hat
 from ..lyapunov import V_1, V_2, norm_v, prior_v
 from ..notation import ERRORS
 from ..paper import EVERY_NETWORK, paper
 from ..plant import M, chi, d
 from .section_5_theorem_1_eq_36_to_40 import e_rate, free_1, free_2, theta_rate, w_v_rate
-from .section_5_theorem_1_eq_41_to_43 import leak_claims, robust_claims
+from .section_5_theorem_1_eq_41_to_43 import OPPOSITE, leak_claims, robust_claims
 
 paper.definition("49.definition", "The Lyapunov function V_2",
                  r"V_2 = V_1 + \frac{M}{2\chi}e_v^2 + \frac{1}{2}\tilde{W}_v^T\Gamma_v^{-1}\tilde{W}_v + "
@@ -32,31 +32,20 @@ def v2_not_negative() -> Goal:
 rate_tracking = M / chi * e_v * e_rate + over_neurons(w_v * w_v_rate) + theta_tilde * theta_rate / alpha_2
 PRINTED_50 = (r"\dot V_2 = \dot V_1 + \frac{M}{\chi}e_v\dot e_v + \tilde W_v^T\Gamma_v^{-1}\dot{\tilde W}_v + "
               r"\frac{1}{\alpha_2}\tilde\theta\dot{\tilde\theta}")
-mass_rate = sp.Symbol("Mdot", real=True)
 
 
-@paper.claim("50", "Rate of V_2 before the laws are put in", "implication", PRINTED_50, "gap", severity="cosmetic",
+@paper.claim("50", "Rate of V_2 before the laws are put in", "identity", PRINTED_50, "proved", premises=("37",),
              rests_on=("37",), scope=EVERY_NETWORK, where=ERRORS,
-             correction=lambda: Goal((equal(D(V_2), D(V_1) + rate_tracking),), flow=free_2),
-             corrected_statement=r"\dot M = 0:\quad " + PRINTED_50,
-             reading="Of M(t), as (2), (3) and (4) write it.",
-             note="The proof needs a constant M, as (1) and (9) write it and as section 6 has it: then the line holds, see "
-                  "50.mended. Of M(t) the term M'e_v^2/(2 chi) is missing.")
+             reading="For a constant M, as (1), (9) and section 6 have it.",
+             note="Of M(t), as (2), (3) and (4) write it, the term with the rate of M, times e_v^2/(2 chi), would be missing.")
 def v2_rate_open() -> Goal:
-    """D(V_2) with free rates, that of M among them."""
-    return Goal((equal(D(V_2), D(V_1) + rate_tracking),), flow=free_2 | {M: mass_rate})
-
-
-@paper.claim("50.mended", "Rate of V_2 for a constant mass", "identity", PRINTED_50, "proved", origin="ours", mends="50",
-             premises=("37",), rests_on=(), scope=EVERY_NETWORK, where=ERRORS)
-def v2_rate_constant_mass() -> Goal:
     """D(V_2) with free rates, M at rest."""
     return Goal((equal(D(V_2), D(V_1) + rate_tracking),), flow=free_2)
 
 
 @paper.claim("51", "Rate of V_2 once more", "identity",
              r"\dot V_2 = \frac{M}{\chi}e_v\dot e_v + \tilde W_v^T\Gamma_v^{-1}\dot{\tilde W}_v + \frac{1}{\alpha_2}"
-             r"\dot{\tilde\theta}", "refuted", severity="cosmetic", rests_on=("50.mended",), scope=EVERY_NETWORK, where=ERRORS,
+             r"\dot{\tilde\theta}", "refuted", severity="cosmetic", rests_on=("50",), scope=EVERY_NETWORK, where=ERRORS,
              correction=lambda: Goal((equal(D(V_2), D(V_1) + rate_tracking),), flow=free_2),
              corrected_statement=PRINTED_50,
              note="V_1' has been lost, and theta_tilde in the last term; (52) has both again, so nothing follows from the "
@@ -69,7 +58,7 @@ def v2_rate_without_v1() -> Goal:
 
 @paper.claim("52.theta", "The error of the estimate of theta moves as the estimate does", "implication",
              r"\tilde\theta = \hat\theta - \theta,\ \theta = \varepsilon_v(z_2) - \tfrac{M}{\chi}d(t) \Rightarrow "
-             r"\dot{\tilde\theta} = \dot{\hat\theta}", "gap", origin="implied", rests_on=("50.mended",),
+             r"\dot{\tilde\theta} = \dot{\hat\theta}", "gap", origin="implied", rests_on=("50",),
              correction=lambda: moves_alike(theta_hat, theta, constant_truth=True),
              corrected_statement=r"\theta\ \text{constant} \Rightarrow \dot{\tilde\theta} = \dot{\hat\theta}",
              note="theta contains d(t), which (70) and (71) let oscillate; the term -theta_tilde theta'/alpha_2 is missing "
@@ -95,7 +84,7 @@ estimate_52 = theta_tilde * (gamma_2(e_v) * e_v + beta_2 * (theta_tilde + theta_
 
 def _rate_52(sign: int, residual: sp.Expr, h_limited: bool = False) -> Goal:
     stated = D(V_1) + _bracket_52(sign, residual) + learning_52 + estimate_52
-    return Goal((equal(D(V_2), stated),), small_hidden(h_v) if h_limited else (),
+    return Goal((equal(D(V_2), stated),), (*small_hidden(h_v), *with_gain(g_v)) if h_limited else (),
                 flow=free_1 | tracking_loop(residual=residual))
 
 
@@ -107,12 +96,12 @@ def _printed_52(sign: str) -> str:
 
 
 LETTERS_52 = ERRORS | {"D_2": robust_52, r"\varepsilon_v(z_2)": theta + M / chi * d}  # theta as the text defines it
-MENDED_52 = LETTERS_52 | {r"\varepsilon_v(z_2)": eps_v + M / chi * d}  # theta any constant
+MENDED_52 = LETTERS_52 | {r"\varepsilon_v(z_2)": r_v + M / chi * d}  # theta any constant
 
 
-@paper.claim("52", "Rate of V_2 with the laws", "identity", _printed_52("+"), "refuted", premises=("33.mended", "50.mended"),
-             rests_on=("32", "33", "35", "50.mended", "52.theta"),
-             scope=EVERY_NETWORK, where=LETTERS_52, correction=lambda: _rate_52(-1, eps_v),
+@paper.claim("52", "Rate of V_2 with the laws", "identity", _printed_52("+"), "refuted", premises=("33.mended", "50"),
+             rests_on=("32", "33", "35", "50", "52.theta"),
+             scope=EVERY_NETWORK, where=LETTERS_52, correction=lambda: _rate_52(-1, r_v),
              corrected_statement=r"\dot\theta = 0:\quad " + _printed_52("-"),
              reading="The second bracket has z_2 where (32) has e_v, which is read; theta_tilde moves as theta_hat does.",
              note="The sign of (33): W_v_tilde^T h_v enters with minus.")
@@ -122,11 +111,11 @@ def v2_rate_laws() -> Goal:
 
 
 @paper.claim("52.mended", "Rate of V_2 with the laws, the weights' sign turned", "identity", _printed_52("-"), "proved",
-             origin="ours", mends="52", premises=("33.mended", "50.mended"), rests_on=(), scope=EVERY_NETWORK,
+             origin="ours", mends="52", premises=("33.mended", "50"), rests_on=(), scope=EVERY_NETWORK,
              where=MENDED_52, note="For any constant theta, whether it is eps_v - (M/chi) d or a bound of it.")
 def v2_rate_laws_mended() -> Goal:
     """D(V_2) along the closed loop with the sign of 33.mended."""
-    return _rate_52(-1, eps_v)
+    return _rate_52(-1, r_v)
 
 
 def _printed_53(residual: str) -> str:
@@ -139,14 +128,14 @@ PRINTED_53, MENDED_53 = _printed_53(r"\theta"), _printed_53(r"\varepsilon_v(z_2)
 
 def _rate_53(learn: int, residual: sp.Expr, h_limited: bool = False) -> Goal:
     rate = -k_5 * e_v**2 + e_v * (residual - gamma_2(e_v) * theta) + leak_v + leak_theta
-    return Goal((equal(D(V_2), D(V_1) + rate),), small_hidden(h_v) if h_limited else (),
+    return Goal((equal(D(V_2), D(V_1) + rate),), (*small_hidden(h_v), *with_gain(g_v)) if h_limited else (),
                 flow=free_1 | tracking_loop(learn=learn, residual=residual))
 
 
-@paper.claim("53", "Rate of V_2, collected", "identity", PRINTED_53, "refuted", premises=("33.mended", "50.mended"),
-             rests_on=("32.cancels", "52"), scope=EVERY_NETWORK, where=ERRORS, correction=lambda: _rate_53(1, eps_v),
+@paper.claim("53", "Rate of V_2, collected", "identity", PRINTED_53, "refuted", premises=("33.mended", "50"),
+             rests_on=("32.cancels", "52"), scope=EVERY_NETWORK, where=ERRORS, correction=lambda: _rate_53(1, r_v),
              corrected_statement=r"\text{with}\ +h_v(z_2)e_v\ \text{in (32) and}\ \dot\theta = 0:\quad " + MENDED_53,
-             reading="The accent over the last theta is a zero's, as in (35).",
+             reading="The accent over the last theta is read as the index 0, as in (35).",
              note="It follows from (52) as printed. In the loop as printed the term -2 e_v W_v_tilde^T h_v is missing; "
                   "with (32) turned, see 32.turned, (53) is what the loop gives. For a constant theta that is a bound, "
                   "eps_v - (M/chi) d stands in the place of the first theta. The text refers to (44) and (51) for (34) "
@@ -157,15 +146,15 @@ def v2_rate_collected() -> Goal:
 
 
 @paper.claim("53.mended", "Rate of V_2, collected, for (32) turned", "identity", MENDED_53, "proved", origin="ours",
-             mends="53", premises=("32.turned", "50.mended"), rests_on=(), scope=EVERY_NETWORK,
-             where=ERRORS | {r"\varepsilon_v(z_2)": eps_v + M / chi * d},
+             mends="53", premises=("32.turned", "50"), rests_on=(), scope=EVERY_NETWORK,
+             where=ERRORS | {r"\varepsilon_v(z_2)": r_v + M / chi * d},
              note="For any constant theta, whether it is eps_v - (M/chi) d or a bound of it.")
 def v2_rate_collected_mended() -> Goal:
     """D(V_2) along the loop with plus before h_v e_v."""
-    return _rate_53(1, eps_v)
+    return _rate_53(1, r_v)
 
 
-robust_claims("54", "theta", (e_v, eps_v, theta, kappa_2),
+robust_claims("54", "theta", (e_v, r_v, theta, kappa_2),
               ("e_v", r"\varepsilon_v - \frac{M}{\chi}d", r"\theta", r"\kappa_2"), "eps_v - (M/chi) d")
 
 bound_v = -sigma_v / 2 * norm_v + sigma_v / 2 * prior_v
@@ -173,8 +162,8 @@ bound_theta = -beta_2 / 2 * theta_tilde**2 + beta_2 / 2 * theta_off**2
 leak_claims("54", "weights", leak_v, -norm_v + over_neurons(W_v_tilde * W_v_off), bound_v,
             (r"\tilde W_v^T\sigma_v(\hat W_v - W_{v0})", r"-\|\tilde W_v\|^2 + \tilde W_v^T(W_v - W_{v0})",
              r"-\frac{\sigma_v}{2}\|\tilde W_v\|^2 + \frac{\sigma_v}{2}\|W_v - W_{v0}\|^2"),
-            "32.leakage", "See 41.reversed; true when the leakage enters with minus. sigma_v is missing in the middle as well, a slip.")
+            "32.leakage", f"{OPPOSITE} sigma_v is missing in the middle as well.")
 leak_claims("54", "estimate", leak_theta, -beta_2 * theta_tilde**2 + beta_2 * theta_tilde * theta_off, bound_theta,
             (r"\beta_2\tilde\theta(\hat\theta - \theta_0)", r"-\beta_2\tilde\theta^2 + \beta_2\tilde\theta"
              r"(\theta - \theta_0)", r"-\frac{\beta_2}{2}\tilde\theta^2 + \frac{\beta_2}{2}(\theta - \theta_0)^2"),
-            "35.leakage", "See 41.reversed; true when the leakage enters with minus.")
+            "35.leakage", OPPOSITE)

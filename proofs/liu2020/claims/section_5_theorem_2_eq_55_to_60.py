@@ -6,9 +6,9 @@ import sympy as sp
 
 from workbench.proof.claim import D, Goal, at_least, at_most, equal
 
-from ..error_dynamics import delta_off, delta_tilde, eps_v, t, theta, theta_off, theta_tilde, tracking_loop
-from ..goal_forms import small_hidden, within
-from ..laws import alpha_1, alpha_2, beta_1, beta_2, e_v, gamma_2, h_v, k_5, kappa_2, sigma_v
+from ..error_dynamics import delta_off, delta_tilde, r_v, t, theta, theta_off, theta_tilde, tracking_loop
+from ..goal_forms import small_hidden, with_gain, within
+from ..laws import alpha_1, alpha_2, beta_1, beta_2, e_v, g_v, gamma_2, h_v, k_5, kappa_2, sigma_v
 from ..lyapunov import (
     V_1,
     V_2,
@@ -54,9 +54,9 @@ from .section_5_theorem_1_eq_44_to_48 import (
 from .section_5_theorem_2_eq_49_to_54 import bound_theta, bound_v
 
 bound_tracking = (-k_5 * e_v**2 + constant * kappa_2 * theta_size + bound_v + bound_theta)
-theta_bounds = (at_least(theta, 0), *within(eps_v, theta))  # eps_v stands for eps_v - (M/chi) d
+theta_bounds = (at_least(theta, 0), *within(r_v, theta))
 smooth_2 = (*smooth_sign(e_v, kappa_2),
-            at_most(e_v * eps_v - e_v * gamma_2(e_v) * theta, constant * kappa_2 * theta))
+            at_most(e_v * r_v - e_v * gamma_2(e_v) * theta, constant * kappa_2 * theta))
 TRACKING_55 = (r"-k_5e_v^2 + 0.2785\kappa_2|\theta| - \frac{\sigma_v}{2}\|\tilde W_v\|^2 + \frac{\sigma_v}{2}"
                r"\|W_v - W_{v0}\|^2 - \frac{\beta_2}{2}\tilde\theta^2 + \frac{\beta_2}{2}(\theta - \theta_0)^2")
 TURNED = (r"\text{With}\ \dot{\hat W}_v = \Gamma_v(+h_ve_v - \sigma_v(\hat W_v - W_{v0})),\ \text{a minus sign in (35), a "
@@ -64,7 +64,7 @@ TURNED = (r"\text{With}\ \dot{\hat W}_v = \Gamma_v(+h_ve_v - \sigma_v(\hat W_v -
 
 
 def _mended_55() -> Goal:
-    return Goal((at_most(D(V_tracking), positive(bound_tracking)),), theta_bounds, tracking_loop(-1, 1, eps_v),
+    return Goal((at_most(D(V_tracking), positive(bound_tracking)),), theta_bounds, tracking_loop(-1, 1, r_v),
                 facts=smooth_sign_facts(e_v, kappa_2), lemmas=(constant_suffices, *smooth_2))
 
 
@@ -77,7 +77,7 @@ def _mended_55() -> Goal:
                   "(54.theta.size); broken here for a constant theta >= 0.")
 def v2_rate_bound() -> Goal:
     """D(V_2) along the laws as printed, for theta >= 0 and any rates of the observer's errors."""
-    return Goal((at_most(D(V_2), D(V_1) + bound_tracking),), (at_least(theta, 0), *small_hidden(h_v)),
+    return Goal((at_most(D(V_2), D(V_1) + bound_tracking),), (at_least(theta, 0), *small_hidden(h_v), *with_gain(g_v)),
                 free_1 | tracking_loop())
 
 
@@ -171,7 +171,7 @@ def decay_2() -> Goal:
                  at_most(entry_1, entry_2), at_most(rho * lambda_v, sigma_v)))
 
 
-after_decay(2, "57", "58", "59", "60", "49", ("43", "55.first"))
+after_decay(2, "57", "58", "59", "49")
 
 smaller = sp.Symbol("rho_smaller", positive=True)
 

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from workbench.proof.claim import D, Goal, at_most, greater
+from workbench.proof.claim import D, Goal, at_most
 
 from ..error_dynamics import t, theta_tilde, w_v
 from ..exact_motions import tracking_motion
 from ..laws import alpha_2, beta_2, e_v, k_5, sigma_v
-from ..lyapunov import V_tracking, bounded_by_eigenvalue, largest_v, mu, norm_v, positive, rho, square_v
+from ..lyapunov import V_2, V_tracking, bounded_by_eigenvalue, largest_v, norm_v, positive, rho, square_v
 from ..paper import EVERY_NETWORK, paper
 from ..plant import M, chi
 from .section_5_theorem_1_eq_36_to_40 import free_2
-from .section_5_theorem_1_eq_41_to_43 import mu_1_stated, slack
-from .section_5_theorem_1_eq_44_to_48 import V_t
+from .section_5_theorem_1_eq_41_to_43 import mu_1_stated
+from .section_5_theorem_1_eq_44_to_48 import ends_near, errors_vanish, near_end
 from .section_5_theorem_2_eq_55_to_60 import bound_tracking, mu_2_stated
 
 
@@ -20,11 +20,13 @@ from .section_5_theorem_2_eq_55_to_60 import bound_tracking, mu_2_stated
              r"\text{all the signals in the closed-loop systems}\ (33)\ \text{are uniformly ultimately bounded}", "refuted",
              severity="result", match="words", closed_loop=True, rests_on=("23.bounded", "26.input", "28", "43", "55.first"),
              scope="one neuron in each network",
-             reading="A bounded signal is in the end below t, so theta_tilde would be, along (13), (18) to (21), (26), "
-                     "(28), (31) to (35).",
-             note="With exact networks (eps_tilde = 0, theta = 0), right priors and (40) the printed loop has a solution in "
-                  "which theta_hat, and with it D_2, grows as exp(t) and W_v_hat^T h_v as -exp(t), while e_v stays "
-                  "where it is. The signs of the leakage and of (32) do it; with them turned V_2 - V_1 decays, see "
+             reading="Along (13), (18) to (21), (26), (28), (31) to (35): a bounded signal is in the end below t. Decided of "
+                     "theta_tilde.",
+             note="The leakage alone does it: with the plus sign of (35) theta_hat leaves its prior as exp(alpha_2 beta_2 t) while all "
+                  "other errors are zero, for all gains (60.zero). In the motion here theta_hat, and with it D_2, grows as exp(t) "
+                  "and W_v_hat^T h_v as -exp(t), while e_v stays where it is; networks are exact (eps_tilde = 0, theta = 0), "
+                  "priors right, (40) holds. A train realises it: it stands, u = f_d = a_0 = 1 and d = 0, s_d rests, W_f* = 0, W_v* = 2, "
+                  "and the inputs of both networks are constant. With the leakage and (32) turned V_2 - V_1 decays, see "
                   "theorem2.mended, but that rests on (28), whose f_v contains the input and is no function of z_2, so that "
                   "a bounded eps_v presupposes the bounded input that is to be shown (26.input, 28.function): Theorem 2 is "
                   "not mended by the signs alone. (12), (20), (21), as laws that are taken, and (40) are missing among its "
@@ -32,6 +34,9 @@ from .section_5_theorem_2_eq_55_to_60 import bound_tracking, mu_2_stated
 def theorem_2() -> Goal:
     """theta_tilde = 2 exp(t) - a constant along the printed loop."""
     return tracking_motion(at_most(theta_tilde, t), width=1)
+
+
+errors_vanish(2, "60", ("43", "55.first"))
 
 
 mu_tracking = positive(mu_2_stated - mu_1_stated)
@@ -63,16 +68,39 @@ def mended_decay() -> Goal:
              rf"\frac{{M}}{{\chi}}e_v^2 \le {BOUND_21},\ \tilde W_v^T\Gamma_v^{{-1}}\tilde W_v \le {BOUND_21},\ "
              rf"\tilde\theta^2 \le \alpha_2 \cdot {BOUND_21}",
              "proved", origin="ours", severity="result", rests_on=(),
-             premises=("28", "theorem1.mended", "theorem2.decay", "comparison", "60.mended", "23.bounded"), scope=EVERY_NETWORK,
+             premises=("28", "theorem1.mended", "theorem2.decay", "comparison.end", "23.bounded"), scope=EVERY_NETWORK,
              note="No mended form of Theorem 2: it needs (28) with an eps_v that is bounded along the motion, for an f_v that "
                   "contains the input and the estimated weights. Where that is so, V_21 = V_2 - V_1 decays (theorem2.decay), "
-                  "meets the bound of 60.mended, and the tracking error e_s is in the end at most B/k_4, B being a bound of "
+                  "comes near to mu_21/rho (comparison.end), and the tracking error e_s is in the end at most B/k_4, B being a bound of "
                   "|e_v + k_1 s_tilde| (23.bounded); the train's own, s_d - s = e_s + s_tilde, adds what theorem1.mended "
                   "says of s_tilde.")
 def theorem_2_mended() -> Goal:
     """What a V_2 - V_1 near mu/rho means for each signal."""
-    ultimate, = paper.shown("60.mended")
-    level = mu_tracking / rho + slack
-    return Goal((at_most(M / chi * e_v**2, 2 * level), at_most(square_v, 2 * level),
-                 at_most(theta_tilde**2, 2 * alpha_2 * level)),
-                (ultimate.subs({V_t: V_tracking, mu: mu_tracking}), greater(slack, 0)))
+    return ends_near(V_tracking, mu_tracking, at_most(M / chi * e_v**2, 2 * near_end), at_most(square_v, 2 * near_end),
+                     at_most(theta_tilde**2, 2 * alpha_2 * near_end))
+
+
+mu_2_bound = positive(mu_2_stated)
+RHO_2_TURNED = (r"\rho_2 = \min\left\{2k_1, 2k_3, \frac{2\chi k_5}{M}, \frac{\sigma_f}{\lambda_{\max}(\Gamma_f^{-1})}, "
+                r"\alpha_1\beta_1, \frac{\sigma_v}{\lambda_{\max}(\Gamma_v^{-1})}, \alpha_2\beta_2\right\},\ "
+                r"\mu_2\ \text{the}\ \mu\ \text{of (56)}:\ ")
+TURNED_2 = (r"\text{With the leakage of (19), (21), (32), (35) and the first sign of (32) turned, (40), constants}\ \delta \ge "
+            r"|\tilde\varepsilon_f|,\ \theta \ge |\varepsilon_v - \tfrac{M}{\chi}d|,\ " + RHO_2_TURNED)
+
+
+@paper.claim("57.turned", "V_2 decays with the signs turned and (56) corrected, if (28) holds", "implication",
+             TURNED_2 + r"\dot V_2 \le -\rho_2V_2 + \mu_2", "proved", origin="ours",
+             premises=("28", "45.turned", "theorem2.decay"), scope=EVERY_NETWORK, where={r"\rho_2": rho, r"\mu_2": mu_2_bound})
+def decay_turned() -> Goal:
+    """The sum of 45.turned and theorem2.decay."""
+    return Goal((at_most(D(V_2), -rho * V_2 + mu_2_bound),), (*paper.shown("45.turned"), *paper.shown("theorem2.decay")), free_2)
+
+
+@paper.claim("60.mended", "V_2 comes as near to phi_2 as is wanted, with the signs turned, if (28) holds", "implication",
+             TURNED_2 + r"\forall c > 0\ \exists T\ \forall t > T:\ V_2(t) \le \frac{\mu_2}{\rho_2} + c", "proved", origin="ours",
+             rests_on=(), premises=("57.turned", "comparison.end"), scope=EVERY_NETWORK,
+             note="No mended form of the sentence after (60): (28) is open, as for Theorem 2. V_2 decays (57.turned), so that (59) "
+                  "holds, at the latest from t = V_2(0)/(rho_2 c) on.")
+def comes_near_turned() -> Goal:
+    """(59) for large t."""
+    return ends_near(V_2, mu_2_bound, at_most(V_2, near_end))

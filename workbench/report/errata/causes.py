@@ -15,8 +15,8 @@ Cause = tuple[Finding, ...]
 
 
 def causes_of(found: Sequence[Finding], decisions: Sequence[Decision]) -> list[Cause]:
-    """The causes of a paper, the gravest first, of those on which as many headline statements rest what is false before
-    what does not follow; a line and those that say the same in other letters are one cause.
+    """The causes of a paper, the gravest first: by the headline statements that rest on it, what is false before what
+    does not follow, then by other lines. A line and those that say the same in other letters are one cause.
 
     A line that holds in another reading of the text is none, nor is one of which nothing depends. Empty where no line
     falls with another one.
