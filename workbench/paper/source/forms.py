@@ -16,7 +16,7 @@ DISPLAY, REFERENCE = "$$", "#"
 LETTERS, REAL, SIGN, DEFINES, RELATION = "$letters", "$real", "$sign", "$defines", "$relation"
 MOVES, TENDS, NONZERO = "$moves", "$tends", "$nonzero"
 VALUE, TIME = "$value", "$time"
-KINDS = {"LETTERS": (LETTERS,), "REAL": (REAL,), "SIGN": (SIGN,), "RELATION": (RELATION, DEFINES, MOVES),
+KINDS = {"LETTERS": (LETTERS,), "REAL": (REAL,), "SIGN": (SIGN,), "RELATION": (RELATION, DEFINES, MOVES, NONZERO),
          "LIMIT": (RELATION,), "MOVES": (MOVES,), "TENDS": (TENDS,), "NONZERO": (NONZERO,), "VALUE": (VALUE,),
          "DEFINES": (DEFINES,), "TIME": (TIME,), "DISPLAY": (DISPLAY,), "REF": (REFERENCE,),
          "VALUES": (LETTERS, VALUE, REFERENCE)}

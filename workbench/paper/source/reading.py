@@ -102,7 +102,8 @@ def _read(words: Sequence[Word], body: str, assuming: bool, given: Collection[st
         return Reading(dict.fromkeys(shown, ""), letters=letters, unknown=odd)
     taken = {*range(len(texts))}.difference(*(range(start, end) for rule, start, end in found or ()
                                               if rule in ("fact", "bounded", "limit", "moved")))
-    bound = [words[at].text for at in sorted(taken) if classes[at] in (forms.SIGN, forms.RELATION, forms.MOVES)]
+    bound = [words[at].text for at in sorted(taken) if classes[at] in (
+        forms.SIGN, forms.RELATION, forms.MOVES, forms.NONZERO)]
     return _whole(said, texts, [text if at in taken else "" for at, text in enumerate(texts)], bound, giving)
 
 
