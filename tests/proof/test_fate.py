@@ -41,6 +41,15 @@ def test_the_lines_that_its_text_uses_are_named_where_they_are_few(count, told):
     assert found.why.startswith("holds, but not by the way of the text, which uses ") and found.why.endswith(told)
 
 
+def test_it_holds_but_not_at_the_printed_numbers_where_these_break_its_conditions_alone():
+    found = fate(decided("1", "violated"), decided("T", "proved", severity="result", premises=(), rests_on=("1",)))
+    assert (found.word, found.by) == ("stands with corrections", ("p2020:1",))
+    assert found.why == "holds, but not at the printed numbers, which break equation (1)"
+    also = fate(decided("1", "violated"), decided("2", "gap"),
+                decided("T", "proved", severity="result", premises=(), rests_on=("1", "2")))
+    assert "not by the way of the text" in also.why
+
+
 def test_it_is_open_when_its_proof_uses_a_line_that_fails():
     found = fate(decided("1", "gap"), decided("2", "proved", premises=("1",)),
                  decided("T", "proved", severity="result", premises=("2",)))

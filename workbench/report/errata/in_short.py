@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from workbench.proof.verdict import FAILED
 from workbench.report.errata.blocks import Block, Heading, Item, Items, Paragraph
 from workbench.report.errata.causes import Cause
 from workbench.report.errata.chain import consequence, corrections
@@ -27,7 +28,8 @@ def in_short(found: Sequence[Finding], context: Context) -> list[Block]:
     first = {f.equation for cause in context.causes for f in cause}
     others = [f for f in found if f.equation in context.numbers and f.equation not in first and f.fate is None]
     resting, alone = [f for f in others if f.causes], [f for f in others if not f.causes]
-    rest = sum(bool(f.causes) for f in found if f.equation in context.numbers and f.equation not in first)
+    rest = sum(bool(f.causes) and f.verdict in FAILED for f in found
+               if f.equation in context.numbers and f.equation not in first)
     blocks: list[Block] = [Heading(2, "The causes"), Paragraph(_how_many(len(context.causes), len(first), rest)),
                            *([Items(tuple(_at_a_glance(cause, context) for cause in context.causes))]
                              if len(context.causes) > 1 else [])]
@@ -37,7 +39,7 @@ def in_short(found: Sequence[Finding], context: Context) -> list[Block]:
         blocks += [Heading(2, "Lines that fail and rest on them"), Paragraph(RESTING),
                    Items(_resting(resting, context))]
     if alone:
-        blocks += [Heading(2, "Lines that fail by themselves"),
+        blocks += [Heading(2, "Other lines that fail by themselves"),
                    Items(tuple(Item(f"{context.numbers[f.equation]}. {short_verdict(f)}.") for f in alone))]
     return blocks
 
