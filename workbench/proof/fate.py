@@ -8,7 +8,7 @@ from dataclasses import replace
 from workbench.proof.besides import besides
 from workbench.proof.places import places_of, subject_of
 from workbench.proof.premises import holds_in_other_reading, proved_under, with_taint
-from workbench.proof.verdict import Decision, Fate
+from workbench.proof.verdict import FAILED, Decision, Fate
 from workbench.proof.wording import listed
 
 NAMED = 5  # lines that fail up to which all are named
@@ -54,19 +54,31 @@ def _fate(decision: Decision, by_id: dict[str, Decision], mended: Decision | Non
         where = f"holds where {listed(decision.besides)}, which it does not state," if decision.besides else "holds,"
         if not failing:
             return Fate("stands", f"{where} and no line that the text uses to get there fails"
-                        f"{_but_for(len(decision.tainted_by))}", tuple(decision.tainted_by))
+                        f"{_but_for(len(decision.tainted_by), _slips(decision, by_id))}", tuple(decision.tainted_by))
         return Fate("stands with corrections", f"{where} but {_in_spite_of(failing, by_id)}", failing)
     if mended is not None:
         return Fate("stands with corrections", f"{_shortfall(decision, unshown, by_id)}; it {form}", by)
     return Fate("open", _shortfall(decision, unshown, by_id), unshown)
 
 
-def _but_for(readings: int) -> str:
-    """How many lines on the way to a statement fail as extracted from the page alone."""
-    if not readings:
-        return ""
+def _but_for(readings: int, slips: int) -> str:
+    """How many lines on the way to a statement fail as extracted from the page alone, or are slips."""
     which = "one that holds" if readings == 1 else f"{readings} that hold"
-    return f", but for {which} in another reading of the extracted text"
+    told = [f"{which} in another reading of the extracted text"] if readings else []
+    told += [f"{'a slip' if slips == 1 else f'{slips} slips'} that nothing depends on"] if slips else []
+    return f", but for {listed(told)}" if told else ""
+
+
+def _slips(decision: Decision, by_id: Mapping[str, Decision]) -> int:
+    """How many lines on the paper's way to a statement fail and do not matter."""
+    seen, waiting = set[str](), [*decision.claim.chain]
+    while waiting:
+        name = waiting.pop()
+        if name not in seen:
+            seen.add(name)
+            waiting += by_id[name].claim.chain
+    return sum(by_id[name].verdict in FAILED and by_id[name].claim.severity == "cosmetic"
+               and not holds_in_other_reading(by_id[name], by_id) for name in seen)
 
 
 def _in_spite_of(failing: Sequence[str], by_id: Mapping[str, Decision]) -> str:
