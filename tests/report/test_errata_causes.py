@@ -48,7 +48,7 @@ def test_causes_are_told_before_what_falls_with_them_and_their_evidence_behind()
     assert "**Likewise.** Equation (2) says the same in other letters and fails alike (correction 2)." in told
     assert "- On corrections 1 and 3: Equation (4), 5.\n" in text[falling:alone]
     assert "- On correction 2: Equation (5), 6 (gap).\n" in text[falling:alone]
-    assert ("falls: refuted by a counterexample. See correction 4; its way in the text rests on corrections 1 and 3."
+    assert ("falls: refuted by a counterexample. See correction 4; in the text it rests on corrections 1 and 3."
             ) in text[:causes]
     assert "- 7. Equation (6) is false as printed.\n" in text[alone:shown]
     # Every correction has its evidence, a cause's line is not printed again there.
