@@ -96,7 +96,9 @@ def auxiliary_decay() -> Goal:
              note="The paper's own condition below (49), and section IV says that the gains are chosen 'according to the "
                   "requirements with respect to the stability of control system'. c_1 = 0.01 gives c_lambda = -0.49, so "
                   "(51), (54), (55) and part 3 of Theorem 1 say nothing about the simulation. Besides c_1 > 1/2 there is "
-                  "another way out: theorem1.3.any_gains holds for all positive gains.")
+                  "another way out. For all positive gains c_1^2 times the integral of |e_s|^2, with that of |e_v|^2, is at most "
+                  "2/c_2 times E_{i-1} - E_i, which tends to zero, and 2 (c_3/c_2)^2 times the integral of |Delta u|^2 "
+                  "(theorem1.3.any_gains).")
 def auxiliary_gain_positive() -> Goal:
     """Both entries of the minimum."""
     return Goal(tuple(greater(r.right, 0) for r in minimum_lambda))
