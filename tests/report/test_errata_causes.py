@@ -61,3 +61,19 @@ def test_lines_that_only_look_alike_are_two_causes():
             if d.claim.equation == "2" else d for d in chain()]
     assert len(causes_of(findings(rows), rows)) == 3
     assert causes_of(findings([d for d in chain() if not d.claim.rests_on]), chain()) == []
+
+
+def test_a_theorem_whose_condition_the_numbers_break_holds_beside_what_is_proved_without_it():
+    def proved(equation, **more):
+        claim = Stated(id=f"doe2026:{equation}", title="Theorem 1: it converges", kind="inequality", printed="x >= y",
+                       recorded="proved", **more)
+        return Decision(claim, "proved", "by hand", "exact", 0.0)
+
+    text = markdown(errata(judged([
+        _line("1", "x >= 1", (), "violated", "data", {"x": "0"}),
+        proved("theorem1", severity="result", rests_on=("doe2026:1",)),
+        proved("theorem1.any", origin="ours", mends="doe2026:theorem1")]), CITATION))
+    assert ("- Theorem 1 (it converges) holds, but not at the printed numbers, which break equation (1). "
+            "See correction 2; in the text it rests on correction 1.") in text
+    assert "**Beside it is proved:**" in text and "Should read" not in text
+    assert "One line fails by itself, and others rest on it. What shows" in text  # the theorem does not fail
