@@ -46,7 +46,7 @@ def varying(flow: dict[sp.Expr, sp.Expr]) -> tuple[sp.Symbol | sp.Indexed, ...]:
     return tuple(sorted(found, key=str))
 
 
-i_axis, J_i, y_i = sp.symbols("i J y", real=True)  # the iteration, an integral of it, a value of it
+i_axis = sp.Symbol("i", real=True)  # the iteration
 
 
 def along_iterations(shown: Relation, always: tuple[Relation, ...], model: dict[sp.Symbol, sp.Expr],

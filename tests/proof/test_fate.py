@@ -41,6 +41,21 @@ def test_the_lines_that_its_text_uses_are_named_where_they_are_few(count, told):
     assert found.why.startswith("holds, but not by the way of the text, which uses ") and found.why.endswith(told)
 
 
+def test_a_slip_on_its_way_is_told_and_costs_it_nothing():
+    found = fate(decided("1", "gap", severity="cosmetic"), decided("2", "proved", premises=(), rests_on=("1",)),
+                 decided("T", "proved", severity="result", premises=("2",)))
+    assert found.word == "stands" and found.why.endswith("only equation (1) fails, a slip that changes no result")
+
+
+def test_it_holds_but_not_at_the_printed_numbers_where_these_break_its_conditions_alone():
+    found = fate(decided("1", "violated"), decided("T", "proved", severity="result", premises=(), rests_on=("1",)))
+    assert (found.word, found.by) == ("stands with corrections", ("p2020:1",))
+    assert found.why == "holds, but not at the printed numbers, which break equation (1)"
+    also = fate(decided("1", "violated"), decided("2", "gap"),
+                decided("T", "proved", severity="result", premises=(), rests_on=("1", "2")))
+    assert "not by the way of the text" in also.why
+
+
 def test_it_is_open_when_its_proof_uses_a_line_that_fails():
     found = fate(decided("1", "gap"), decided("2", "proved", premises=("1",)),
                  decided("T", "proved", severity="result", premises=("2",)))
@@ -79,6 +94,8 @@ def test_a_line_with_an_unclear_glyph_taints_and_costs_a_theorem_nothing_where_i
                            decided("1.glyph", other, origin="ours", glyph="1"),
                            decided("T", "proved", severity="result", premises=(), rests_on=("1",))])
         assert rows[2].tainted_by == ("p2020:1",)
+        if word == "stands":
+            assert fate(*rows).why.endswith(", but for one that holds in another reading of the extracted text")
         assert fate(*rows).word == word
         assert ("(1)" in fate(*rows).why) is (other == "refuted")  # the paper is not charged with a lost sign
     rows = (decided("T", "refuted", severity="result", glyph="T.glyph"),

@@ -175,7 +175,7 @@ def test_what_rests_on_a_correction_is_told_by_numbers():
     text = markdown(errata(paper(), CITATION))
     assert "**Consequence.** Theorem 1 (correction 2) rests on it." in text  # (4) is what Theorem 1 rests on
     assert "**Consequence.** In the text it rests on equation (4) (correction 1), which fails." in text
-    assert "See correction 2; its way in the text rests on correction 1." in text
+    assert "See correction 2; in the text it rests on correction 1." in text
 
 
 def test_an_open_reading_is_set_as_formulas_and_one_of_another_line_is_named():

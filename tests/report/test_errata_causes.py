@@ -49,7 +49,7 @@ def test_causes_are_told_before_what_falls_with_them_and_their_evidence_behind()
     assert "**Likewise.** Equation (2) says the same in other letters and fails alike (correction 2)." in told
     assert "- On corrections 1 and 3: Equation (4), 5.\n" in text[falling:alone]
     assert "- On correction 2: Equation (5), 6 (gap).\n" in text[falling:alone]
-    assert ("falls: refuted by a counterexample. See correction 4; its way in the text rests on corrections 1 and 3."
+    assert ("falls: refuted by a counterexample. See correction 4; in the text it rests on corrections 1 and 3."
             ) in text[:causes]
     assert "- 7. Equation (6) is false as printed.\n" in text[alone:shown]
     # Every correction has its evidence, a cause's line is not printed again there.
@@ -102,3 +102,19 @@ def test_of_causes_with_as_many_headlines_what_is_false_comes_before_what_does_n
     causes = causes_of(findings(rows), rows)
     assert [[f.equation for f in cause] for cause in causes] == [["2"], ["1"]]
     assert causes[0][0].lines < causes[1][0].lines
+
+
+def test_a_theorem_whose_condition_the_numbers_break_holds_beside_what_is_proved_without_it():
+    def proved(equation, **more):
+        claim = Stated(id=f"doe2026:{equation}", title="Theorem 1: it converges", kind="inequality", printed="x >= y",
+                       recorded="proved", **more)
+        return Decision(claim, "proved", "by hand", "exact", 0.0)
+
+    text = markdown(errata(judged([
+        _line("1", "x >= 1", (), "violated", "data", {"x": "0"}),
+        proved("theorem1", severity="result", rests_on=("doe2026:1",)),
+        proved("theorem1.any", origin="ours", mends="doe2026:theorem1")]), CITATION))
+    assert ("- Theorem 1 (it converges) holds, but not at the printed numbers, which break equation (1). "
+            "See correction 2; in the text it rests on correction 1.") in text
+    assert "**Beside it is proved:**" in text and "Should read" not in text
+    assert "Other lines rest on one that fails. One headline statement holds" in text  # the theorem does not fail

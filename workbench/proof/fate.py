@@ -53,9 +53,9 @@ def _fate(decision: Decision, by_id: dict[str, Decision], mended: Decision | Non
         failing = tuple(line for line in decision.tainted_by if not holds_in_other_reading(by_id[line], by_id))
         where = f"holds where {listed(decision.besides)}, which it does not state," if decision.besides else "holds,"
         if not failing:
-            return Fate("stands", f"{where} and {_all_but(slips, by_id)}", tuple(decision.tainted_by))
-        titles = {by_id[name].claim.equation: by_id[name].claim.title for name in failing}
-        return Fate("stands with corrections", f"{where} but not by the way of the text, {which_uses(titles)}", failing)
+            readings = tuple(decision.tainted_by)
+            return Fate("stands", f"{where} and {_all_but(slips, by_id)}{_but_for(len(readings))}", readings)
+        return Fate("stands with corrections", f"{where} but {_in_spite_of(failing, by_id)}", failing)
     if mended is not None:
         return Fate("stands with corrections", f"{_shortfall(decision, unshown, by_id)}; it {form}", by)
     return Fate("open", _shortfall(decision, unshown, by_id), unshown)
@@ -67,6 +67,21 @@ def _all_but(slips: Sequence[str], by_id: Mapping[str, Decision]) -> str:
         return "no line that the text uses to get there fails"
     fails = "fails, a slip that changes" if len(slips) == 1 else "fail, slips that change"
     return f"of the lines that the text uses to get there only {_named(slips, by_id)} {fails} no result"
+
+
+def _but_for(readings: int) -> str:
+    """How many lines on the way to a statement fail as extracted from the page alone."""
+    which = "one that holds" if readings == 1 else f"{readings} that hold"
+    return f", but for {which} in another reading of the extracted text" if readings else ""
+
+
+def _in_spite_of(failing: Sequence[str], by_id: Mapping[str, Decision]) -> str:
+    """What is not as printed of a statement that is proved: the numbers, where these alone break what it asks for, or
+    the way of the text."""
+    if all(by_id[line].verdict == "violated" for line in failing):
+        return f"not at the printed numbers, which break {_named(failing, by_id)}"
+    titles = {by_id[name].claim.equation: by_id[name].claim.title for name in failing}
+    return f"not by the way of the text, {which_uses(titles)}"
 
 
 def _shortfall(decision: Decision, unshown: tuple[str, ...], by_id: Mapping[str, Decision]) -> str:

@@ -68,6 +68,7 @@ class Finding:
     alone: bool
     needs: tuple[Need, ...]
     fate: FateWord | None
+    fate_why: str
     fate_by: tuple[str, ...]
     other_reading: str
     other_holds: bool
@@ -124,6 +125,7 @@ def _finding(d: Decision, by_id: dict[str, Decision], mended: Decision | None,
         _equations(way.otherwise), _equations(way.kept), _equations(way.broken), _equations(way.causes), way.alone,
         needs_of(d, mended, by_id),
         d.fate.word if d.fate else None,
+        d.fate.why if d.fate else "",
         _equations(fate_by),
         d.other_reading or "", holds, d.claim.note, goal_digest(d.certificate) if d.certificate else None,
         {claim.equation: claim.title for claim in others})

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
-from workbench.proof.fate import NAMED, which_uses
+from workbench.proof.fate import NAMED
 from workbench.proof.places import place_of, places_of, subject_of, whole_of
 from workbench.proof.wording import listed
 from workbench.report.counterexample import Counterexample
@@ -39,8 +39,7 @@ def short_verdict(found: Finding) -> str:
     name = worded(found.place)
     if found.verdict == "proved":
         if found.gravity == "corrected" and found.mended_by not in found.fate_by:
-            uses = worded(which_uses({equation: found.titles[equation] for equation in found.fate_by}))
-            return f"{name} holds, but not by the way of the text, {uses}"
+            return f"{name} {worded(found.fate_why)}"
         lines = f", {_named(found, found.fate_by)}" if found.gravity != "corrected" else ""
         return f"{name} is shown only from lines that are not shown{lines}"
     if found.origin == "implied":

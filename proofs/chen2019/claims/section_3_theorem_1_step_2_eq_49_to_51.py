@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import sympy as sp
 
-from workbench.proof.claim import D, Goal, at_least, at_most, equal, greater
+from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, greater
 from workbench.proof.derive import lie_derivative
 from workbench.trains.multi_particle import over_cars
 
@@ -44,10 +44,13 @@ def auxiliary_rate() -> Goal:
     return Goal((equal(D(V_lambda), stated),), flow=auxiliary)
 
 
-def _young(sign: int) -> Goal:
+positive_c_lambda = tuple(greater(x, 0) for x in c_lambda_candidates)
+
+
+def _young(sign: int, assume: tuple[Relation, ...] = ()) -> Goal:
     bound = (-(c_1 + sign * sp.S.Half) * over_cars(lambda_1**2) - (c_2 - sp.S.Half - c_3 / 2) * over_cars(lambda_2**2)
              + c_3 * over_cars(Delta_u**2) / 2)
-    return Goal((at_most(D(V_lambda), bound),), flow=auxiliary)
+    return Goal((at_most(D(V_lambda), bound),), assume, auxiliary)
 
 
 def _line_49(sign: str) -> str:
@@ -59,11 +62,12 @@ def _line_49(sign: str) -> str:
 @paper.claim("49", "Young's inequality for V_lambda", "inequality", _line_49("+"), "refuted", premises=("49.rate",),
              scope=EVERY_TRAIN, glyph="49.glyph", where=IN_49, correction=lambda: _young(-1),
              corrected_statement=_line_49("-"),
+             reading="With c_lambda > 0, as the paper prints below it.",
              note="As the extracted text has it, with c_1 + 1/2. The next line and c_lambda use c_1 - 1/2, so this is "
                   "a slip of one sign; should the page show a minus, it is none.")
 def auxiliary_young() -> Goal:
-    """D(V_lambda) along (9) against the printed bound."""
-    return _young(1)
+    """D(V_lambda) along (9) against the printed bound, for c_lambda > 0."""
+    return _young(1, positive_c_lambda)
 
 
 @paper.claim("49.glyph", "Young's inequality for V_lambda, with c_1 - 1/2", "inequality", _line_49("-"), "proved",
@@ -76,7 +80,7 @@ def auxiliary_young_minus() -> Goal:
 @paper.claim("49.last", "The last line of (49)", "inequality",
              r"\dot{V}_{\lambda,i} \leq -c_\lambda (\left\| \boldsymbol{\lambda}_{1,i} \right\|^2 + \left\| "
              r"\boldsymbol{\lambda}_{2,i} \right\|^2) + \frac{c_3}{2} \left\| \Delta \boldsymbol{u}_i \right\|^2",
-             "proved", premises=("49.rate",), rests_on=("49.glyph",), scope=EVERY_TRAIN, where=IN_49,
+             "proved", premises=("49.rate",), rests_on=("49",), scope=EVERY_TRAIN, where=IN_49,
              note="For every c_lambda up to min(c_1 - 1/2, c_2 - 1/2 - c_3/2), of any sign. From (9) itself, so our proof "
                   "does not rest on the printed line before it.")
 def auxiliary_decay() -> Goal:
@@ -86,13 +90,15 @@ def auxiliary_decay() -> Goal:
 
 
 @paper.claim("49.stated", "c_lambda is a positive constant at the stated gains", "condition",
-             C_LAMBDA + r" \text{ is a positive constant}", "violated", at=stated_gains, match="words", severity="result",
+             C_LAMBDA + r" \text{ is a positive constant}", "violated", at=stated_gains, match="words",
              reading="Both c_1 - 1/2 and c_2 - 1/2 - c_3/2 are positive at c_1 = 0.01, c_2 = 100, c_3 = 0.04.",
              repair={**stated_gains, c_1: Fraction(1)},
              note="The paper's own condition below (49), and section IV says that the gains are chosen 'according to the "
                   "requirements with respect to the stability of control system'. c_1 = 0.01 gives c_lambda = -0.49, so "
                   "(51), (54), (55) and part 3 of Theorem 1 say nothing about the simulation. Besides c_1 > 1/2 there is "
-                  "another way out: 51.any_gains holds for all positive gains.")
+                  "another way out. For all positive gains c_1^2 times the integral of |e_s|^2, with that of |e_v|^2, is at most "
+                  "2/c_2 times E_{i-1} - E_i, which tends to zero, and 2 (c_3/c_2)^2 times the integral of |Delta u|^2 "
+                  "(theorem1.3.any_gains).")
 def auxiliary_gain_positive() -> Goal:
     """Both entries of the minimum."""
     return Goal(tuple(greater(r.right, 0) for r in minimum_lambda))
@@ -120,7 +126,7 @@ IN_51 = {r"c_\lambda": c_lambda, INT_LAMBDA: X, INT_U: Y}
              rf"{INT_LAMBDA} \leq \frac{{c_3}}{{2c_{{\lambda}}}} {INT_U}", "proved", premises=("50",), where=IN_51,
              scope=EVERY_TRAIN,
              reading="With c_lambda > 0, as the paper prints below (49), and V_lambda(0) = 0, which it takes for a fact.",
-             note="Neither holds by itself: see 49.stated and A3.")
+             note="c_lambda > 0 does not hold at the stated gains: 49.stated.")
 def auxiliary_bound() -> Goal:
     """(50) with V_lambda(0) = 0 <= V_lambda(T)."""
     given = (*paper.shown("50"), equal(V_start, 0), at_least(V_end, 0), greater(c_lambda, 0))

@@ -99,9 +99,9 @@ def _fates(decisions: Sequence[Decision], found: Sequence[Finding], context: Con
 
 
 def _see(found: Finding | None, fate: Fate, context: Context) -> str:
-    """Where more is said of a statement; what was only not checked has no correction."""
+    """Where more is said of a statement; what was only not checked has no correction to see."""
     number = None if found is None else context.numbers.get(found.equation)
-    if found is None or number is None or fate.word == "open":
+    if found is None or number is None or (fate.word == "open" and found.verdict not in FAILED):
         return ""
     way = causes_told(found, context)
     return f" See correction {number}{f'; {way}' if way else ''}."

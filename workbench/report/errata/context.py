@@ -61,7 +61,8 @@ def corrected(found: Finding) -> list[Block]:
     known."""
     if not found.should_read:
         return []
-    label = {"violated": "Holds with", "gap": "What does follow"}.get(found.verdict, "Should read")
+    label = {"violated": "Holds with", "gap": "What does follow", "proved": "Beside it is proved"}.get(
+        found.verdict, "Should read")
     under = condition_sentence(found)
     return [Formula(found.should_read, label), *needed(found.needs),
             *([Paragraph(under, "Not shown")] if under else [])]

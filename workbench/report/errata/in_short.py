@@ -43,9 +43,9 @@ def in_short(found: Sequence[Finding], context: Context) -> list[Block]:
 
 
 def causes_told(found: Finding, context: Context) -> str:
-    """On which corrections the way of the text to a headline statement rests; empty where on none."""
+    """On which corrections a headline statement rests in the text; empty where on none."""
     causes = corrections(found.causes, context.numbers)
-    return f"its way in the text rests on {causes}" if causes else ""
+    return f"in the text it rests on {causes}" if causes else ""
 
 
 def _resting(resting: Sequence[Finding], context: Context) -> tuple[Item, ...]:

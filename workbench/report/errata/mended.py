@@ -24,8 +24,9 @@ def mended_statements(decisions: Sequence[Decision], titles: Mapping[str, str]) 
     mended = [d for d in decisions if d.claim.mends in headlines and _is_proof(d)]
     blocks: list[Block] = []
     for d in mended:
-        shown = not d.proved_under
-        blocks += [Heading(3, f"{name_of_line(headlines[str(d.claim.mends)])}, mended"
+        shown, headline = not d.proved_under, headlines[str(d.claim.mends)]
+        form = "what is proved beside it" if headline.verdict == "proved" and not headline.proved_under else "mended"
+        blocks += [Heading(3, f"{name_of_line(headline)}, {form}"
                               f"{'' if shown else ', proved only where lines hold that are not shown'}"),
                    *_stated(d, by_id, titles), *proof_blocks(d)]
     found: list[Block] = [Heading(2, "The headline statements, mended and proved"), Paragraph(HOW_TO_READ),
