@@ -93,6 +93,19 @@ def test_what_holds_is_listed_by_section():
     assert "- Section 3: Lemma 2 (the line lemma2).\n" in held
 
 
+def test_a_step_that_the_text_only_implies_is_not_told_as_the_line_at_its_number():
+    step = paper_row("8", title="V is positive", origin="implied")
+    text = told([*paper(), step])
+    held = text[text.index("## What holds as it stands"):text.index("## Evidence")]
+    assert "- Section 3: Lemma 2 (the line lemma2); what the text implies at (8) “V is positive”.\n" in held
+
+
+def paper_row(equation, **fields):
+    """The lemma of the small paper as a line of another number."""
+    own = next(d for d in paper() if d.claim.equation == "lemma2")
+    return replace(own, claim=replace(own.claim, id=f"doe2026:{equation}", severity="step", **fields), fate=None)
+
+
 @pytest.mark.parametrize(("latex", "shown"), [
     (r"\frac{d}{dt} \tilde{b} = \frac{d}{dt} \left[\tilde{b} + b^{*}\right]",
      r"\dot{\tilde{b}} = \dot{\tilde{b}} + \dot{b}^{*}"),

@@ -36,7 +36,7 @@ def chain():
 def test_causes_are_told_before_what_falls_with_them_and_their_evidence_behind():
     text = markdown(errata(chain(), CITATION))
     causes, falling, alone, shown = (text.index(heading) for heading in (
-        "## The causes", "## Lines that fail and rest on them", "## Lines that fail by themselves",
+        "## The causes", "## Lines that fail and rest on them", "## Other lines that fail by themselves",
         "## Evidence: the causes"))
     assert causes < falling < alone < shown
     told = text[causes:falling]

@@ -37,7 +37,7 @@ def in_short(found: Sequence[Finding], context: Context) -> list[Block]:
         blocks += [Heading(2, "Lines that fail and rest on them"), Paragraph(RESTING),
                    Items(_resting(resting, context))]
     if alone:
-        blocks += [Heading(2, "Lines that fail by themselves"),
+        blocks += [Heading(2, "Other lines that fail by themselves"),
                    Items(tuple(Item(f"{context.numbers[f.equation]}. {short_verdict(f)}.") for f in alone))]
     return blocks
 
