@@ -284,7 +284,7 @@ def _law_37(weight: sp.Expr) -> Goal:
                 flow={rho_hat: rho_law})
 
 
-@paper.claim("37.failures", "(37) cancels its error with failures too", "identity",
+@paper.claim("37.failures", "With its weight in (40) the error of rho_hat cancels with failures too", "identity",
              r"\rho_i = \tfrac{1}{m_ik_\nu}:\ -z_2m_ik_\nu\tilde\rho_i(\zeta_i - \eta - r_2z_2) + "
              r"\tfrac{m_i}{\Gamma_{mi}}\tilde\rho_i\dot{\tilde\rho}_i = 0", "refuted", premises=("41.mended",),
              rests_on=(), origin="implied", scope="each mode", correction=lambda: _law_37(m * k_v),

@@ -222,12 +222,12 @@ def damping_bounded() -> Goal:
 @paper.claim("theorem5.mended", "Theorem 5 with a plus in (44) and (61), leakage in the adaptive laws and one mass in all modes", "implication",
              r"\text{From the last failure on, time zero being then, with}\ " + LEAKY + r"V_2(t) \le \tfrac{\Lambda}{\mu} + \left(V_2(0) - "
              r"\tfrac{\Lambda}{\mu}\right)e^{-\mu t},\ \mu = \min\{2r_1, 2r_2, \kappa\},\ \Lambda = \tfrac{b_0^2}{4k_1} + "
-             r"\tfrac{c_0^2}{4k_2} + \kappa E_0\text{; all signals are bounded, if}\ x_m, \dot x_m, \ddot x_m\ \text{and all}\ f_{j\rho}\ "
+             r"\tfrac{c_0^2}{4k_2} + \kappa E_0,\ " + E_0 + r"\text{; all signals are bounded, if}\ x_m, \dot x_m, \ddot x_m\ \text{and all}\ f_{j\rho}\ "
              r"\text{are}", "proved", origin="ours", mends="theorem5",
              severity="result", scope=ALL_SIGNALS,
              premises=("65.leakage", "65.leakage.decay", "40.mended", "46.jump", "25.switch", "theorem1.bounded", "62.bounded",
                        "47.signal.mended", "filippov"),
-             reading=E_0 + ". V_2 has no jump at a switch (25.switch), and a finite one at a failure (46.jump).",
+             reading="V_2 has no jump at a switch (25.switch), and a finite one at a failure (46.jump).",
              note="So z_1, z_2 and all estimation errors are bounded; x_2 by theorem1.bounded, nu_0 by 47.signal.mended with 62.bounded. "
                   "The errors end within a ball, they do not tend to zero.")
 def theorem_5_mended() -> Goal:
@@ -246,10 +246,10 @@ def small_constant() -> Goal:
     return Goal((at_most(constant, rho),), (at_least(k_1 * 2 * rho, b_0**2), at_least(k_2 * 2 * rho, c_0**2)))
 
 
-@paper.claim("remark4.mean", "What (65) says of the errors: a bound of their mean squares", "implication",
+@paper.claim("remark4.mean", "With (65) mended: a bound of the mean squares of the errors", "implication",
              r"\dot V_2 \le -r_1z_1^2 - r_2z_2^2 + K \Rightarrow \tfrac1t\int_0^t(r_1z_1^2 + r_2z_2^2)\,d\tau \le \tfrac{V_2(0)}{t} + K",
              "proved", premises=("65.mended",), origin="ours", mends="remark4", severity="result",
-             note="The part of Remark 4 that follows once (65) is repaired.")
+             note="The part of Remark 4 that follows from (65), which takes a plus in (44) and in (61) and one mass in all modes (65.mended).")
 def mean_square() -> Goal:
     """J + V - K t does not increase, where J is the integral."""
     return Goal((at_most(J, V_0 + K * t),), (at_least(V_t, 0), at_least(t, 0)),
