@@ -248,8 +248,8 @@ TRACKS = ("Shown for all times after the last failure, from which time counts: V
                         "(7)-(8) with actuator failures (13)-(15)", "the "), "refuted",
              match="words", severity="result", closed_loop=True, rests_on=("47", "47.finite", "47.signal", "43"), scope=ALL_SIGNALS,
              reading=SQUARE_IN_TIME + "Decided as z_1^2 <= 1/4 from some time on.",
-             note="False as printed: " + STEADY_STATE_ERROR + "The cause is the sign of (44): with a plus there Theorem 2 holds when all "
-                  "modes have one mass, as in section VIII. The theorem's list of what is applied leaves out (43).")
+             note="False as printed: " + STEADY_STATE_ERROR + "The cause is the sign of (44): with a plus there it holds as "
+                  "theorem2.mended states, with one mass in all modes, as in section VIII. The theorem's list of what is applied leaves out (43).")
 def theorem_2() -> Goal:
     """The printed closed loop, with a motion along which z_1 = 1."""
     return steady_state_error(at_most(z_1**2, epsilon), nu_failed, {epsilon: sp.Rational(1, 4), lambda_0: sp.Integer(1)},

@@ -202,7 +202,7 @@ def rate_52_at_most() -> Goal:
              match="words", severity="result", closed_loop=True, rests_on=("52", "47.signal", "48.pattern", "49", "50"), scope=ALL_SIGNALS,
              reading=SQUARE_IN_TIME + "Decided as z_1^2 <= 1/4 from some time on.",
              note="False as printed: " + STEADY_STATE_ERROR + "The bound delta_j^0 is 1, delta_j is 0. With a plus in (44) "
-                  "Theorem 3 holds when all modes have one mass.")
+                  "it holds as theorem3.mended states.")
 def theorem_3() -> Goal:
     """The printed closed loop, with a motion along which z_1 = 1."""
     one = sp.Integer(1)

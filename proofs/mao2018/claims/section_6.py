@@ -234,7 +234,7 @@ def v2_bound_unknown_mended() -> Goal:
              reading=SQUARE_IN_TIME + "Decided as z_1^2 <= 1/4 from some time on. The bound in (56) is 1, which is one of m_i as well "
                                       "as one of m_i k_nu.",
              note="False as printed: " + STEADY_STATE_ERROR + "lambda_hat falls from 1. With a plus in (54) Theorem 4 falls too "
-                  "(theorem4.reading); with a plus in (44) and in (54) it holds when all modes have one mass. The text before it "
+                  "(theorem4.reading); with a plus in (44) and in (54) it holds as theorem4.mended states. The text before it "
                   "names (48) and (52) where (55) and (57) are meant.")
 def theorem_4() -> Goal:
     """The printed closed loop, with a motion along which z_1 = 1."""
