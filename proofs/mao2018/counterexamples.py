@@ -33,6 +33,8 @@ from .plant import r_1, r_2, xddot_m, z_1
 # An easy instant: no resistance, its estimates exact, a constant desired speed, sixteen motors of which one failed.
 exact: Flow = dict.fromkeys((*trues, *hats, V_idle, xddot_m), sp.Integer(0))
 one_failed: Flow = {k_v: sp.Integer(15), m_idle: m * 3}  # 15 healthy motors, four modes of one mass (section VIII)
+# Two motors of which one failed, one mode, rho_i exact: of the faults of (40) none is there, and that of (44) is left alone.
+one_left: Flow = {k_v: sp.Integer(1), rho_0: sp.Integer(1), rho_hat: sp.Integer(1), m_idle: sp.Integer(0)}
 stopped: Flow = dict.fromkeys((failure, failure_hat, over_basis((xi - xi_hat) ** 2), xi_hat), sp.Integer(0))
 unit_gains: Flow = {**dict.fromkeys((r_1, r_2, Gamma_k, Gamma_xi, Gamma_m, m, lambda_0, d_0, chi_d), sp.Integer(1)),
                     d: sp.Integer(0), z_1: sp.Integer(0), rho_0: sp.Integer(15), rho_hat: sp.Rational(1, 15)}
@@ -75,19 +77,19 @@ def ramp_time(goal: Goal) -> Goal:
 
 
 def one_mode(goal: Goal) -> Goal:
-    """The goal for one mode of mass 1 that is active, 15 motors of 16, exact estimates of resistance and rho_i."""
+    """The goal for one mode of mass 1 that is active, one motor of two, exact estimates of resistance and rho_i."""
     one, zero = sp.Integer(1), sp.Integer(0)
     values: Flow = dict.fromkeys([of_mode(n) for n in ("chi_m", "chi_d", *(f"chi_{name}" for name in NAMES))], one)
     values |= {of_mode(f"log_{name}"): zero for name in ("m", "Gamma_m", "rho_0", *(f"Gamma_{n}" for n in NAMES))}
     values |= {of_mode(name + mark): zero for name in NAMES for mark in ("", "_hat")}
-    values |= {of_mode("rho_hat"): sp.Rational(1, 15), k_v: sp.Integer(15), xddot_m: zero, of_mode("d"): zero,
+    values |= {of_mode("rho_hat"): one, k_v: one, xddot_m: zero, of_mode("d"): zero,
                of_mode("lambda_0"): one}
     return already(goal, values)
 
 
 def failing(goal: Goal) -> Goal:
     """The goal at an easy instant, its relations as they are printed."""
-    return at_instant(goal, exact | one_failed | unit_gains | full)
+    return at_instant(goal, exact | unit_gains | one_left | full)
 
 
 def error_in_a(goal: Goal) -> Goal:

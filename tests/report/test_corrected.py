@@ -133,6 +133,19 @@ def test_a_sum_counts_by_the_index_of_its_letters():
     assert expression_latex("Sum(p_k*x_i)") == r"\sum_{i} p_{k} x_{i}" and expression_latex("Sum(x)") == r"\sum_{i} x"
 
 
+def test_a_step_that_the_text_only_implies_is_not_told_as_the_line_at_its_number():
+    step = paper_row("8", title="V is positive", origin="implied")
+    text = told([*paper(), step])
+    held = text[text.index("## What holds as it stands"):text.index("## Evidence")]
+    assert "- Section 3: Lemma 2 (the line lemma2); what the text implies at (8) “V is positive”.\n" in held
+
+
+def paper_row(equation, **fields):
+    """The lemma of the small paper as a line of another number."""
+    own = next(d for d in paper() if d.claim.equation == "lemma2")
+    return replace(own, claim=replace(own.claim, id=f"doe2026:{equation}", severity="step", **fields), fate=None)
+
+
 @pytest.mark.parametrize(("latex", "shown"), [
     (r"\frac{d}{dt} \tilde{b} = \frac{d}{dt} \left[\tilde{b} + b^{*}\right]",
      r"\dot{\tilde{b}} = \dot{\tilde{b}} + \dot{b}^{*}"),

@@ -244,6 +244,15 @@ def test_numbers_of_one_counterexample_are_all_decimals_or_all_fractions(point, 
     assert breaks_at(counterexample_of(certificate("a:1", "refuted", show, point))) == shown
 
 
+def test_all_other_letters_are_those_of_the_two_sides_where_more_have_a_value():
+    names = "abcdefgh"
+    show, point = f"{'*'.join(names)} >= 1", dict.fromkeys(names, "0")
+    alone = counterexample_of(certificate("a:1", "refuted", show, point))
+    assert breaks_at(alone).startswith("with all letters equal to $0$, ")
+    more = counterexample_of(certificate("a:1", "refuted", show, {**point, "p": "1"}, ("p <= 1",)))
+    assert breaks_at(more).startswith("with all letters on which its sides depend equal to $0$, ")
+
+
 @pytest.mark.parametrize(("show", "sides"), [
     ("-2*exp(-x) >= 0", (r"-2 e^{-1}", "0")), ("log(x + 1) <= exp(0)/2", (r"\ln\left(2\right)", "0.5")),
     ("exp(-x) + 1 <= 1", (r"\approx 1.36788", "1")), ("D(exp(-x)) >= 0", ("-e^{-1}", "0"))])

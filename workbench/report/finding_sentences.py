@@ -84,7 +84,8 @@ def breaks_at(point: Counterexample) -> str:
     """The numbers put in, and what the line says there."""
     few = not point.motion and point.others is None and len(point.values) + len(point.beside) <= NUMBERS
     named = ", ".join(f"${value}$" for value in (*point.values, *(point.beside if few else ())))
-    others = f"{'and ' if named else ''}{'all other letters' if named else 'all letters'} equal to ${point.others}$"
+    letters = f"all {'other ' if named else ''}letters{' on which its sides depend' if point.beside else ''}"
+    others = f"{'and ' if named else ''}{letters} equal to ${point.others}$"
     at = " ".join(filter(None, (named, others if point.others is not None else "")))
     short = len(point.relation) <= SHORT
     if point.unbounded is not None:

@@ -30,7 +30,7 @@ from ..paper import paper
 from ..plant import s, z_1, z_2
 from ..steady_state_error import STEADY_STATE_ERROR, epsilon, steady_state_error
 from .section_4_design import LEFT, NU_0, OUTWEIGHED, SIGNAL, left_by, outweighed
-from .section_4_theorem_2 import BOUND, MENDED_45, ONE_MASS, REPAIR, SQUARE_IN_TIME, THEOREM, TRACKS
+from .section_4_theorem_2 import ALONE_44, BOUND, BOUNDED, MENDED_45, ONE_MASS, REPAIR, SQUARE_IN_TIME, THEOREM, TRACKS
 
 delta, delta_1, delta_2 = sp.symbols("delta delta_1 delta_2", real=True)
 bound_1, bound_2 = sp.symbols("delta_1_0 delta_2_0", positive=True)
@@ -151,14 +151,14 @@ SUMS = "delta is the sum over the failed motors of delta_j, delta_0 that of delt
 
 
 @paper.claim("51", "V_2 does not increase with unparameterizable failures: the whole argument", "inequality", BOUND,
-             "refuted", premises=("17", "39", "25.idle"), rests_on=("44", "51.a", "49", "50"), scope=ALL_SIGNALS,
-             where={"V_2": V_40}, closed_loop=True,
-             note="The last line of (51), for |delta_j| <= delta_j^0, k_nu >= rho_knu^0 and what (45) asks. False for the "
-                  "reasons of (45) alone; mended as 51.mended. " + SUMS)
+             "refuted", premises=("17", "39", "25.idle"), rests_on=("44", "37.failures", "51.a", "49", "50"), scope=ALL_SIGNALS,
+             where={"V_2": V_40}, closed_loop=True, reading=ALONE_44,
+             note="The last line of (51), for |delta_j| <= delta_j^0, k_nu >= rho_knu^0 and what (45) asks. Mended as "
+                  "51.mended. " + SUMS)
 def v2_bound_unparameterized() -> Goal:
     """D(V_2) of (40) along (7), (8), (17) with (27)-(31), (37), (41), (44), (48)-(50)."""
     return at_instant(failing(_bound_51(mended=False)), {
-        delta: sp.Integer(0), delta_0: sp.Integer(1), rho_k0: sp.Integer(15)})
+        delta: sp.Integer(0), delta_0: sp.Integer(1), rho_k0: sp.Integer(1)})
 
 
 @paper.claim("51.mended", "V_2 does not increase with unparameterizable failures, laws and weights mended", "inequality",
@@ -181,7 +181,7 @@ RATE_52 = {r"\dot{V}_2": w_rate}
 
 @paper.claim("52", "V_2 decreases at exactly this rate", "implication",
              r"\dot{V}_2 = -r_1z_1^2(t) - r_2z_2^2(t) \leq 0", "gap", rests_on=("51",), severity="cosmetic",
-             glyph="52.glyph", where=RATE_52, reading="What follows from (51), taken as true.",
+             where=RATE_52, reading="What follows from (51), taken as true.",
              note="(51) gives at most, not equality; only that is used.")
 def rate_52() -> Goal:
     """The equality from the bound of (51)."""
@@ -189,7 +189,7 @@ def rate_52() -> Goal:
 
 
 @paper.claim("52.glyph", "V_2 decreases at least at this rate", "implication",
-             r"\dot{V}_2 \leq -r_1z_1^2(t) - r_2z_2^2(t) \leq 0", "proved", origin="ours", glyph="52", where=RATE_52,
+             r"\dot{V}_2 \leq -r_1z_1^2(t) - r_2z_2^2(t) \leq 0", "proved", origin="ours", mends="52", where=RATE_52,
              note="What follows from (51), taken as true.")
 def rate_52_at_most() -> Goal:
     """The inequality, and its sign."""
@@ -199,10 +199,10 @@ def rate_52_at_most() -> Goal:
 @paper.claim("theorem3", "Theorem 3: the position error tends to zero with unparameterizable failures", "limit",
              THEOREM % ("(48), with the signals (32)-(33) and (49)-(50), and adaptive scheme (27)-(31), (37), (41), and (44)",
                         "(7)-(8) under actuator failures (16)", "the "), "refuted",
-             match="words", severity="result", closed_loop=True, rests_on=("52", "48.pattern", "49", "50"), scope=ALL_SIGNALS,
+             match="words", severity="result", closed_loop=True, rests_on=("52", "47.signal", "48.pattern", "49", "50"), scope=ALL_SIGNALS,
              reading=SQUARE_IN_TIME + "Decided as z_1^2 <= 1/4 from some time on.",
-             note="False as printed: " + STEADY_STATE_ERROR + "The bound delta_j^0 is 1, delta_j is 0. Mended as (45) is, (51) "
-                  "holds, and Theorem 3 with it.")
+             note="False as printed: " + STEADY_STATE_ERROR + "The bound delta_j^0 is 1, delta_j is 0. With a plus in (44) "
+                  "it holds as theorem3.mended states.")
 def theorem_3() -> Goal:
     """The printed closed loop, with a motion along which z_1 = 1."""
     one = sp.Integer(1)
@@ -211,11 +211,12 @@ def theorem_3() -> Goal:
                                rho_k0: sp.Integer(15)}, *disturbed, *rest_bounds, extra_force=delta)
 
 
-@paper.claim("theorem3.mended", "Theorem 3 with (44) and the weights of V_2 mended", "implication",
+@paper.claim("theorem3.mended", "Theorem 3 with a plus in (44), one mass in all modes and a sum that is known", "implication",
              r"\text{Theorem 3 with } \dot{\hat\rho}_{k\nu} = +\Gamma_{k\nu}z_2\hat\xi^T\varpi\text{, the sum in (48) over the}\ "
-             r"\bar n\ \text{motors with the largest}\ \delta_j^0" + ONE_MASS, "proved",
+             r"\bar n\ \text{motors with the largest}\ \delta_j^0" + ONE_MASS + BOUNDED, "proved",
              origin="ours", mends="theorem3", severity="result", scope=ALL_SIGNALS, reading=TRACKS, note=REPAIR,
-             premises=("51.mended", "40.mended", "46.jump", "25.switch", "filippov", "theorem1.rate", "barbalat"))
+             premises=("51.mended", "40.mended", "46.jump", "25.switch", "filippov", "theorem1.rate", "theorem1.bounded",
+                       "47.signal.mended", "barbalat"))
 def theorem_3_mended() -> Goal:
     """From what (51) mended and (40) mended show of V_2 alone."""
     return tracks(V_true, paper.shown("51.mended"), paper.shown("40.mended"))

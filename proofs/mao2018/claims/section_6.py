@@ -19,10 +19,9 @@ from ..active_mode import (
     nu_unknown,
     rho_0,
     rho_k0,
-    rho_k_hat,
     signal_of,
 )
-from ..counterexamples import already, at_instant, full
+from ..counterexamples import already, at_instant, failing
 from ..error_dynamics import (
     ACTIVE_MODE,
     ALL_SIGNALS,
@@ -40,8 +39,9 @@ from ..modes import EVERY_MODE, p_hat
 from ..paper import paper
 from ..plant import s, t, z_1, z_2
 from ..steady_state_error import STEADY_STATE_ERROR, epsilon, steady_state_error
+from .section_3_signals import rho_m
 from .section_4_design import LEFT, NU_0, OUTWEIGHED, SIGNAL, bounds_errors, left_by
-from .section_4_theorem_2 import BOUND, ONE_MASS, REPAIR, SQUARE_IN_TIME, THEOREM, TRACKS
+from .section_4_theorem_2 import ALONE_44, BOUND, BOUNDED, ONE_MASS, REPAIR, SQUARE_IN_TIME, THEOREM, TRACKS, WEIGHTS
 from .section_5 import delta, rest_bounds
 
 bounded_by_unknown = (at_most(d, lambda_0), at_least(d, -lambda_0))
@@ -67,44 +67,45 @@ def fitting_unknown_bound_lyapunov() -> Goal:
     return bounds_errors(V_53)
 
 
-lambda_rate, chi_one = sp.symbols("lambda_hat_rate chi_d_i", real=True)
-
-
 def _law_54(sign: int) -> Goal:
-    return Goal((equal(lambda_rate, sign * Gamma_d * z_2 * sp.sign(z_2) * chi_one),),
-                (equal(sp.Abs(z_2) * chi_one - lambda_rate / Gamma_d, 0),))
+    """D of the square of the error of lambda_hat, which has to be -|z_2| chi times the error."""
+    error = lambda_0 - lambda_hat
+    return Goal((equal(D(error**2 / (2 * Gamma_d)), -sp.Abs(z_2) * chi_d * error),),
+                flow={lambda_hat: sign * Gamma_d * z_2 * sp.sign(z_2) * chi_d})
 
 
 LAW_54 = r"\dot{\hat{\lambda}}_i^0(t) = %s\Gamma_{d_i^0}z_2(t)\operatorname{sgn}[z_2(t)]\chi_{\bar{d}i}(t)"
-LETTERS_54 = {r"\dot{\hat{\lambda}}_i^0(t)": lambda_rate, r"\chi_{\bar{d}i}(t)": chi_one,
-              r"\operatorname{sgn}[z_2(t)]": sp.sign(z_2)}
-CHOSEN_54 = ("Decided as what the paper chooses the law for: the rate for which the coefficient of the error of "
-             "lambda_hat in the rate of V_2 is zero, which is what (57) says.")
+CANCELS_54 = LAW_54 + (r"\ \Rightarrow\ \tfrac{d}{dt}\left[\tfrac{1}{2\Gamma_{d_i^0}}(\tilde\lambda_i^0)^2\right] = "
+                       r"-\tilde\lambda_i^0|z_2|\chi_{\bar di}")
+paper.definition("54.law", "The law of lambda_hat", LAW_54 % "-", note="What it is for is decided in 54.")
 
 
-@paper.claim("54", "The law of lambda_hat cancels its error in the rate of V_2", "identity", LAW_54 % "-", "refuted",
-             scope="each mode", glyph="54.glyph", where=LETTERS_54, correction=lambda: _law_54(1),
-             corrected_statement=LAW_54 % "", reading=CHOSEN_54,
-             note="With the minus the estimate of the bound can only fall, where the disturbance needs it to grow, and "
-                  "once it is negative (56) pushes away from z_2 = 0. (57) is what the opposite sign gives.")
+@paper.claim("54", "With the minus of (54) the square of its error adds to the rate of V_2 what (57) says", "identity",
+             CANCELS_54 % "-", "refuted", origin="implied", scope="each mode", correction=lambda: _law_54(1),
+             corrected_statement=CANCELS_54 % "",
+             reading="The two middle terms of (57), lambda_hat |z_2| - |z_2| lambda_i^0, are what (54) has to make.",
+             note="The sign of (54) is wrong: with the minus the estimate of the bound can only fall, where the disturbance needs "
+                  "it to grow, and once it is negative (56) pushes away from z_2 = 0. (57) is what a plus gives. The extracted "
+                  "text has a clear minus, as in (44). Theorem 4 falls with either sign, see theorem4.reading.")
 def lambda_law_cancels() -> Goal:
-    """The coefficient of the error: |z_2| chi_di from z_2 (d + m_i k_nu nu_d), and that of its square in (53)."""
+    """The law as printed."""
     return _law_54(-1)
 
 
-@paper.claim("54.glyph", "With a plus for the minus of (54) the term cancels", "identity", LAW_54 % "", "proved",
-             origin="ours", glyph="54", scope="each mode", where=LETTERS_54, reading=CHOSEN_54)
+@paper.claim("54.glyph", "With a plus for the minus of (54) it adds what (57) says", "identity", CANCELS_54 % "", "proved",
+             origin="ours", mends="54", scope="each mode")
 def lambda_law_plus() -> Goal:
     """The same with a plus."""
     return _law_54(1)
 
 
 def _terms_57(coefficient: sp.Expr) -> Goal:
-    """The terms that (54) with a plus makes, lambda_hat being of any sign."""
-    true = (m * k_v * z_2 * nu_unknown + z_2 * d * chi_d + D((lambda_0 - lambda_hat) ** 2 / (2 * Gamma_d)))
-    stated = (-coefficient / rho_0 * lambda_hat * size * chi_d + lambda_hat * size * chi_d - size * lambda_0 * chi_d
+    """The terms that (54) with a plus makes, lambda_hat being of any sign; rho_m^0 in (56) as printed."""
+    true = (m * k_v * z_2 * nu_unknown.xreplace({rho_0: rho_m}) + z_2 * d * chi_d
+            + D((lambda_0 - lambda_hat) ** 2 / (2 * Gamma_d)))
+    stated = (-coefficient / rho_m * lambda_hat * size * chi_d + lambda_hat * size * chi_d - size * lambda_0 * chi_d
               + z_2 * d * chi_d)
-    return Goal((equal(true, stated),), (*filippov, at_most(chi_d, 1)), {lambda_hat: lambda_law_true})
+    return Goal((equal(true, stated),), (*filippov, at_most(chi_d, 1), at_least(m, rho_m)), {lambda_hat: lambda_law_true})
 
 
 TERMS_57 = (r"\dot V_2 + r_1z_1^2 + r_2z_2^2 = \sum_i\left(-\tfrac{%s}{\rho_m^0}\hat\lambda_i^0|z_2| + \hat\lambda_i^0|z_2| - "
@@ -114,36 +115,37 @@ TERMS_57 = (r"\dot V_2 + r_1z_1^2 + r_2z_2^2 = \sum_i\left(-\tfrac{%s}{\rho_m^0}
 @paper.claim("57.a", "The terms of the unknown bound in the rate of V_2", "identity", TERMS_57 % ("m_i", ""), "refuted",
              premises=("54.glyph",), rests_on=("54.glyph", "55", "56"), scope="one active mode",
              correction=lambda: _terms_57(m * k_v),
-             corrected_statement=TERMS_57 % (r"m_ik_\nu", r"\ \text{with}\ \dot{\hat\lambda}_i^0 = +\Gamma_{di}|z_2|\chi_{\bar di}"),
+             corrected_statement=TERMS_57 % (r"m_ik_\nu", r"\ \text{with}\ \dot{\hat\lambda}_i^0 = +\Gamma_{d_i^0}|z_2|\chi_{\bar di}"),
              reading="The equation of (57), decay taken to the left; of V_2' only the terms of d_i, nu_di and lambda_hat. (54) is "
-                     "read with a plus, in which the two middle terms are right.",
-             note="The first term lacks k_nu. With a minus in (54) the two middle terms have the opposite sign as well. All "
-                  "that 45.a finds wrong is left out here.")
+                     "taken with a plus, with which the two middle terms are right. rho_m^0 is the bound of m_i of section III. Shown "
+                     "for k_nu = 15 and m_i = rho_m^0 = 1.",
+             note="The first term lacks k_nu. That only helps the bound where lambda_hat is not negative.")
 def unknown_bound_terms() -> Goal:
     """z_2 m_i k_nu nu_d + z_2 d_i chi_di and D of the last term of (53)."""
-    return already(_terms_57(m), {k_v: sp.Integer(15), m: sp.Integer(1), rho_0: sp.Integer(15), chi_d: sp.Integer(1)})
+    return already(_terms_57(m), {k_v: sp.Integer(15), m: sp.Integer(1), rho_m: sp.Integer(1), chi_d: sp.Integer(1)})
 
 
-def _terms_bound(of_lambda: sp.Expr, of_error: sp.Expr) -> Goal:
-    """The terms of (57), by what stands before lambda_hat |z_2| and the error of lambda_hat."""
-    stated = (-of_lambda * lambda_hat * size - of_error * (lambda_0 - lambda_hat) * size + z_2 * d) * chi_d
-    return Goal((at_most(stated, 0),), (*bounded_by_unknown, at_least(m * k_v, rho_0), at_most(chi_d, 1)))
+def _terms_bound(*more: Relation) -> Goal:
+    """The terms of (57) as printed."""
+    stated = (-m / rho_m * lambda_hat * size - (lambda_0 - lambda_hat) * size + z_2 * d) * chi_d
+    return Goal((at_most(stated, 0),), (*bounded_by_unknown, at_least(m, rho_m), at_most(chi_d, 1), *more))
 
 
-@paper.claim("57.b", "The bound drawn in (57)", "inequality",
-             r"\sum_i\left(-\tfrac{m_i}{\rho_m^0}\hat\lambda_i^0|z_2| + \hat\lambda_i^0|z_2| - |z_2|\lambda_i^0 + z_2\bar d_i"
-             r"\right)\chi_{\bar di} \le 0", "refuted", origin="implied", scope="one active mode",
-             reading="The step from the first line of (57) to the second.",
-             correction=lambda: _terms_bound(m * k_v / rho_0, m * k_v / rho_0),
-             corrected_statement=r"V_2\ \text{with}\ \tfrac{m_ik_\nu}{\rho_i^0}\Gamma_{di}^{-1}(\tilde\lambda_i^0)^2:\quad "
-                                 r"\sum_i\left(-\tfrac{m_ik_\nu}{\rho_i^0}\lambda_i^0|z_2| + z_2\bar d_i\right)\chi_{\bar di} \le 0",
-             note="(56) and (57) have rho_m^0, which is nowhere defined; the line after (56) defines rho_i^0, a bound of m_i "
-                  "k_nu, not of m_i. With it m_i/rho_m^0 may be below 1, and above it where lambda_hat < 0: the step fails "
-                  "either way. With the weight m_i k_nu/rho_i^0 before the square of lambda_tilde in (53) lambda_hat drops "
-                  "out, whatever its sign.")
+STEP_57 = (r"\sum_i\left(-\tfrac{m_i}{\rho_m^0}\hat\lambda_i^0|z_2| + \hat\lambda_i^0|z_2| - |z_2|\lambda_i^0 + z_2\bar d_i"
+           r"\right)\chi_{\bar di} \le 0")
+
+
+@paper.claim("57.b", "The bound drawn in (57)", "inequality", STEP_57, "refuted", origin="implied", severity="cosmetic",
+             scope="one active mode", reading="The step from the first line of (57) to the second.",
+             correction=lambda: _terms_bound(at_least(lambda_hat, 0)),
+             corrected_statement=r"\hat\lambda_i^0 \ge 0\ \Rightarrow\ " + STEP_57,
+             note="It fails where lambda_hat is negative alone, which a plus in (54) and an initial estimate lambda_hat(0) >= 0 "
+                  "exclude (54.sign); the paper prints neither. (56) and (57) print rho_m^0, the bound of m_i of section III, and "
+                  "the line after (56) defines rho_i^0, the bound of m_i k_nu. Either serves: in theorem4.mended the weight m_i k_nu/rho_i^0 of "
+                  "lambda_tilde makes lambda_hat drop out, whatever its sign, and rho_m^0 is at most m_i k_nu too.")
 def unknown_bound_step() -> Goal:
-    """The printed terms, rho_m^0 read as rho_i^0."""
-    return _terms_bound(m / rho_0, sp.Integer(1))
+    """The printed terms, rho_m^0 a bound of m_i."""
+    return _terms_bound()
 
 
 lambda_start = sp.Symbol("lambda_hat_0", nonnegative=True)
@@ -168,7 +170,7 @@ def unknown_bound_controller_in_rate() -> Goal:
 
 paper.definition("56.law", "The signal with an estimated bound",
                  r"\nu_{di}(t) = -\frac{1}{\rho_m^0}\hat{\lambda}_i^0(t)\operatorname{sgn}[z_2(t)]\chi_{\bar{d}i}(t)",
-                 note="The next line defines rho_i^0 instead of rho_m^0, see 56.")
+                 note="Section III defines rho_m^0, a bound of m_i; the next line defines rho_i^0, one of m_i k_nu, see 56.")
 
 
 @paper.claim("56", "nu_d outweighs the disturbance once the estimate reaches its bound", "inequality",
@@ -184,7 +186,7 @@ def estimated_bound_outweighs() -> Goal:
 
 
 @paper.claim("54.sign", "The corrected law keeps lambda_hat from falling", "implication",
-             r"\dot{\hat\lambda}_i^0 = \Gamma_{di}|z_2|\chi_{\bar di},\ \hat\lambda_i^0(0) \ge 0 \Rightarrow "
+             r"\dot{\hat\lambda}_i^0 = \Gamma_{d_i^0}|z_2|\chi_{\bar di},\ \hat\lambda_i^0(0) \ge 0 \Rightarrow "
              r"\hat\lambda_i^0(t) \ge 0", "proved", origin="ours", scope="each mode")
 def lambda_not_negative() -> Goal:
     """-lambda_hat does not increase."""
@@ -201,20 +203,19 @@ def _bound_57(V: sp.Expr, laws: dict[sp.Expr, sp.Expr], law: sp.Expr, *more: Rel
     return Goal((at_most(D(V), decay),), (*given_57, *more), flow)
 
 
-MENDED_57 = (r"\dot{V}_2 \leq -r_1z_1^2 - r_2z_2^2\ \text{with}\ \dot{\hat\lambda}_i^0 = +\Gamma_{di}|z_2|\chi_{\bar di},\ "
-             r"\text{the weight}\ \tfrac{m_ik_\nu}{\rho_i^0}\ \text{of}\ (\tilde\lambda_i^0)^2\ \text{and (45) repaired}")
-exact_failures = {k_v: sp.Integer(15), rho_k_hat: sp.Rational(1, 15), Gamma_d: sp.Integer(1)}
+MENDED_57 = (r"\dot{V}_2 \leq -r_1z_1^2 - r_2z_2^2\ \text{with}\ \dot{\hat\lambda}_i^0 = +\Gamma_{d_i^0}|z_2|\chi_{\bar di},\ "
+             r"\dot{\hat\rho}_{k\nu} = +\Gamma_{k\nu}z_2\hat\xi^T\varpi,\ \text{the weight}\ \tfrac{m_ik_\nu}{\rho_i^0}\ \text{of}\ "
+             r"(\tilde\lambda_i^0)^2,\ " + WEIGHTS)
 
 
 @paper.claim("57", "V_2 does not increase with unknown bounds: the whole argument", "inequality", BOUND + r" \leq 0",
-             "refuted", premises=("39", "25.idle"), rests_on=("44", "57.a", "57.b"), scope=ALL_SIGNALS, closed_loop=True,
+             "refuted", premises=("39", "25.idle"), rests_on=("44", "37.failures", "54", "57.a", "57.b"), scope=ALL_SIGNALS, closed_loop=True,
              where={"V_2": V_53_printed},
-             reading="(54) with a plus, which the extracted text leaves open and which serves; with a minus it is false as well.",
-             note="The last line of (57), for lambda_i^0 >= |d_i| and m_i k_nu >= rho_i^0; even where "
-                  "lambda_hat >= 0. Mended as 57.mended. " + REPAIR)
+             reading=ALONE_44 + "lambda_hat is exact, so that (54) plays no part, and rho_i^0 = m_i serves as rho_m^0 too.",
+             note="The last line of (57), for lambda_i^0 >= |d_i| and m_i k_nu >= rho_i^0. Mended as 57.mended. " + REPAIR)
 def v2_bound_unknown() -> Goal:
-    """D(V_2) along (7), (8), (27)-(31), (37), (41), (44), (54) with a plus, (55), (56)."""
-    goal = at_instant(_bound_57(V_53_printed, laws_printed, lambda_law_true, at_least(lambda_hat, 0)), full)
+    """D(V_2) along (7), (8), (27)-(31), (37), (41), (44), (54)-(56)."""
+    goal = at_instant(failing(_bound_57(V_53_printed, laws_printed, lambda_law)), {lambda_hat: sp.Integer(1)})
     return Goal((*goal.show, at_most(decay, 0)), goal.assume, goal.flow)
 
 
@@ -229,33 +230,37 @@ def v2_bound_unknown_mended() -> Goal:
 @paper.claim("theorem4", "Theorem 4: the position error tends to zero with unknown bounds", "limit",
              THEOREM % ("(55), with signal (56) and the adaptive scheme (27)-(31), (37), (41), (44), and(54)",
                         "(7)-(8) with actuator failures (13)-(15)", ""), "refuted",
-             match="words", severity="result", closed_loop=True, rests_on=("57",), scope=ALL_SIGNALS,
-             reading=SQUARE_IN_TIME + "Decided as z_1^2 <= 1/4 from some time on, (54) read with a plus, which serves.",
-             note="False as printed: " + STEADY_STATE_ERROR + "lambda_hat = 1 + 16 t, and rho_knu_hat starts at -1/15; with a "
-                  "minus in (54) there is such a motion too (theorem4.reading). Mended as (45) and (57) are, Theorem 4 holds. The text before it names (48) and (52) where (55) and (57) are meant.")
+             match="words", severity="result", closed_loop=True, rests_on=("57", "47.signal"), scope=ALL_SIGNALS,
+             reading=SQUARE_IN_TIME + "Decided as z_1^2 <= 1/4 from some time on. The bound in (56) is 1, which is one of m_i as well "
+                                      "as one of m_i k_nu.",
+             note="False as printed: " + STEADY_STATE_ERROR + "lambda_hat falls from 1. With a plus in (54) Theorem 4 falls too "
+                  "(theorem4.reading); with a plus in (44) and in (54) it holds as theorem4.mended states. The text before it "
+                  "names (48) and (52) where (55) and (57) are meant.")
 def theorem_4() -> Goal:
     """The printed closed loop, with a motion along which z_1 = 1."""
-    return _error_stays(lambda_law_true)
-
-
-def _error_stays(law: sp.Expr) -> Goal:
-    constants = {epsilon: sp.Rational(1, 4), lambda_0: sp.Integer(1), Gamma_d: sp.Integer(16)}
-    return steady_state_error(at_most(z_1**2, epsilon), nu_unknown, constants, *disturbed, lambda_law=law)
-
-
-@paper.claim("theorem4.reading", "The same with the minus of (54)", "limit", r"\dot{\hat\lambda}_i^0 = -\Gamma_{di}|z_2|\chi_{\bar di} "
-             r"\Rightarrow \lim_{t\to\infty} e(t) = 0", "refuted", origin="ours", closed_loop=True, rests_on=(), scope=ALL_SIGNALS,
-             note="lambda_hat falls from 1 without end, and rho_knu_hat starts at its true value.")
-def theorem_4_in_the_other_reading() -> Goal:
-    """(44) and (54) as the extracted text has them."""
     return _error_stays(lambda_law)
 
 
-@paper.claim("theorem4.mended", "Theorem 4 with (44), (54) and the weights of V_2 mended", "implication",
+def _error_stays(law: sp.Expr) -> Goal:
+    constants = {epsilon: sp.Rational(1, 4), lambda_0: sp.Integer(1), Gamma_d: sp.Integer(16), rho_0: sp.Integer(1)}
+    return steady_state_error(at_most(z_1**2, epsilon), nu_unknown, constants, *disturbed, at_least(m, rho_0), lambda_law=law)
+
+
+@paper.claim("theorem4.reading", "Theorem 4 with a plus in (54) alone", "limit", r"\dot{\hat\lambda}_i^0 = +\Gamma_{d_i^0}|z_2|\chi_{\bar di} "
+             r"\Rightarrow \lim_{t\to\infty} e(t) = 0", "refuted", origin="ours", closed_loop=True, rests_on=(), scope=ALL_SIGNALS,
+             note="lambda_hat grows from 1 without end, and rho_knu_hat starts at -1.")
+def theorem_4_in_the_other_reading() -> Goal:
+    """(44) as printed, (54) with a plus."""
+    return _error_stays(lambda_law_true)
+
+
+@paper.claim("theorem4.mended", "Theorem 4 with a plus in (44) and (54) and one mass in all modes", "implication",
              r"\text{Theorem 4 with } \dot{\hat\rho}_{k\nu} = +\Gamma_{k\nu}z_2\hat\xi^T\varpi,\ \dot{\hat\lambda}_i^0 = "
-             r"+\Gamma_{di}|z_2|\chi_{\bar di}" + ONE_MASS, "proved", origin="ours",
+             r"+\Gamma_{d_i^0}|z_2|\chi_{\bar di}\text{, in (56) any positive bound that is at most all}\ m_ik_\nu\text{, as}\ \rho_i^0\ "
+             r"\text{and}\ \rho_m^0\ \text{are}" + ONE_MASS + BOUNDED, "proved", origin="ours",
              mends="theorem4", severity="result", scope=ALL_SIGNALS, reading=TRACKS, note=REPAIR,
-             premises=("57.mended", "53.mended", "46.jump", "25.switch", "filippov", "theorem1.rate", "barbalat"))
+             premises=("57.mended", "53.mended", "46.jump", "25.switch", "filippov", "theorem1.rate", "theorem1.bounded",
+                       "47.signal.mended", "barbalat"))
 def theorem_4_mended() -> Goal:
     """From what (57) mended and (53) mended show of V_2 alone."""
     return tracks(V_53, paper.shown("57.mended"), paper.shown("53.mended"))

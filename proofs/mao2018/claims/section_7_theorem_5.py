@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from workbench.proof.claim import D, Goal, at_least, at_most, greater, less
+from workbench.proof.claim import D, Goal, Relation, at_least, at_most, greater, less
 
 from ..active_mode import (
     chi_d,
@@ -18,11 +18,10 @@ from ..active_mode import (
     nu_damp,
     nu_failed,
     rho_0,
-    rho_hat,
     rho_k_hat,
     rho_law_61_true,
 )
-from ..counterexamples import already, at_instant, exact, full, unit_gains
+from ..counterexamples import already, at_instant, exact, failing, unit_gains
 from ..error_dynamics import (
     ALL_SIGNALS,
     Flow,
@@ -36,17 +35,18 @@ from ..error_dynamics import (
     uncertain_train,
     within,
 )
-from ..leakage_proof import leakage_goals
-from ..lyapunov import V_0, V_40, J, V_t, V_true, constant, decay, m_idle, w_t
+from ..leakage_proof import idle_mode, leakage_goals, rate_of_every_mode
+from ..lyapunov import V_0, V_40, J, V_t, V_true, constant, decay, w_t
 from ..paper import paper
 from ..plant import Delta_b, Delta_c, drag, r_1, r_2, t, x_2, z_1, z_2
 from ..steady_state_error import STEADY_STATE_ERROR, Xi_hat, epsilon, steady_state_error
-from .section_4_theorem_2 import REPAIR
-from .section_7_design import printed_loop
+from .section_3_signals import B, X_max
+from .section_4_theorem_2 import ALONE_44, REPAIR, WEIGHTS
+from .section_7_design import LAW_61, printed_loop
 
 LEAKAGE = leakage_goals()
 MENDED_65 = (r"\dot{V}_2 \leq -r_1z_1^2 - r_2z_2^2 + \tfrac{b_0^2}{4k_1} + \tfrac{c_0^2}{4k_2}\ \text{with}\ +\nu_\Delta\ "
-             r"\text{in (61) and (45) repaired}")
+             r"\text{in (61),}\ +\ \text{in (44),}\ " + WEIGHTS)
 
 
 def _bound_65(mended: bool) -> Goal:
@@ -60,22 +60,20 @@ def _bound_65(mended: bool) -> Goal:
 
 
 def driven(goal: Goal) -> Goal:
-    """An easy instant at which rho_hat is free, one mode being there at all and nothing uncertain about the resistance."""
-    zero: Flow = dict.fromkeys((Delta_b, Delta_c, m_idle), sp.Integer(0))
-    ones: Flow = {x: value for x, value in unit_gains.items() if x != rho_hat} | dict.fromkeys(
-        (k_1, k_2, b_0, c_0, x_2), sp.Integer(1))
-    return at_instant(goal, exact | ones | full | zero | {k_v: sp.Integer(15)})
+    """The instant of (45) with nothing uncertain about the resistance."""
+    zero: Flow = dict.fromkeys((Delta_b, Delta_c), sp.Integer(0))
+    return at_instant(failing(goal), zero | dict.fromkeys((k_1, k_2, b_0, c_0, x_2), sp.Integer(1)))
 
 
-DRIVEN = "(44) and the weights of (40) break it, (61) being read with a plus, which serves. "
+DRIVEN = ALONE_44 + "Since these estimates are exact, the sign of (61) plays no part either. "
 
 
 @paper.claim("63.bound", "The display after (63): Rate of V_2 with the bounds of the uncertain resistance", "inequality",
              r"\dot{V}_2 \leq -r_1z_1^2(t) - r_2z_2^2(t) + \bigg(-k_1z_2^2(t)x_2^2(t) + b_0|z_2(t)||x_2(t)| - "
              r"k_2z_2^2(t)x_2^4(t) + c_0|z_2(t)|x_2^2(t)\bigg)", "refuted", premises=("39", "25.idle"),
-             rests_on=("44", "63", "63.drag", "43"), scope=ALL_SIGNALS, closed_loop=True,
-             where={"V_2": V_40, "|z_2(t)|": sp.Abs(z_2), "|x_2(t)|": sp.Abs(x_2)},
-             note="Mended as 65.mended. " + DRIVEN)
+             rests_on=("44", "37.failures", "61", "63", "63.drag", "43"), scope=ALL_SIGNALS, closed_loop=True,
+             where={"V_2": V_40, "|z_2(t)|": sp.Abs(z_2), "|x_2(t)|": sp.Abs(x_2)}, reading=DRIVEN,
+             note="Mended as 65.mended.")
 def v2_bound_sizes() -> Goal:
     """D(V_2) along (58)-(62)."""
     stated = decay + (-k_1 * z_2**2 * x_2**2 + b_0 * sp.Abs(z_2) * sp.Abs(x_2) - k_2 * z_2**2 * x_2**4
@@ -87,7 +85,7 @@ def v2_bound_sizes() -> Goal:
 @paper.claim("65", "Bound of the rate of V_2 with nonlinear damping: the whole argument", "inequality",
              r"\dot{V}_2 \leq -r_1z_1^2(t) - r_2z_2^2(t) + \left(\frac{b_0^2}{4k_1} + \frac{c_0^2}{4k_2}\right)", "refuted",
              premises=("39", "25.idle"), rests_on=("63.bound", "64"), scope=ALL_SIGNALS, closed_loop=True,
-             where={"V_2": V_40}, note=DRIVEN + "Mended as 65.mended. " + REPAIR)
+             where={"V_2": V_40}, reading=DRIVEN, note="Mended as 65.mended. " + REPAIR)
 def v2_bound_damping() -> Goal:
     """D(V_2) along (58)-(62)."""
     return driven(_bound_65(mended=False))
@@ -155,41 +153,54 @@ damped_constants: Flow = {lambda_0: sp.Integer(1), b_0: sp.Integer(1), c_0: sp.I
              r"signals are bounded}", "refuted", match="words", severity="result", closed_loop=True,
              rests_on=("65", "65.bounded"), scope=ALL_SIGNALS,
              reading="Decided as what a bounded xi_hat^T varpi would give, (xi_hat^T varpi)^2 <= t from some time on. "
-                     "(61), read with a plus, which serves, and (62) belong to the laws, which the theorem's list leaves out.",
-             note="False as printed: " + STEADY_STATE_ERROR + "Delta_b = Delta_c = 0 and k_1 = k_2 = 1; with a minus before "
-                  "nu_Delta in (61) there is such a motion too (theorem5.reading). Mended as (45) and (65) are, (65) holds, but "
-                  "boundedness of the estimates still does not follow from it (65.bounded); with leakage it does, see "
-                  "theorem5.mended.")
+                     "(61) and (62) belong to the laws, which the theorem's list leaves out.",
+             note="False as printed: " + STEADY_STATE_ERROR + "Delta_b = Delta_c = 0, k_1 = k_2 = 1, and xi_hat grows without end. With a "
+                  "plus in (61) Theorem 5 falls too (theorem5.reading). With a plus in (44) and (61) as well (65) holds, but "
+                  "boundedness of the estimates still does not follow from it (65.bounded); with leakage it does.")
 def theorem_5() -> Goal:
     """The printed closed loop, with a motion along which xi_hat grows without end."""
-    return steady_state_error(at_most(Xi_hat**2, t), nu_failed, {**damped_constants, k_1: sp.Integer(1), k_2: sp.Integer(1)},
-                           *disturbed, *uncertain, damped=True, turned=True, begins=1)
+    return _damped_loop(at_most(Xi_hat**2, t), 1, begins=1)
 
 
-@paper.claim("theorem5.reading", "The same with the minus before nu_Delta in (61)", "limit", r"\dot{\hat\rho}_i = -\gamma_{mi}z_2("
-             r"-\nu_\Delta + \zeta_i - \eta - r_2z_2)\chi_{mi} \Rightarrow \lim_{t\to\infty} e(t) = 0", "refuted", origin="ours",
-             closed_loop=True, rests_on=(), scope=ALL_SIGNALS,
-             note="At k_1 = k_2 = 1000, so that it decides Remark 4 in that reading as well; xi_hat grows like t.")
+def _damped_loop(show: Relation, k: int, turned: bool = False, begins: int = 0) -> Goal:
+    constants = {**damped_constants, **dict.fromkeys((k_1, k_2), sp.Integer(k))}
+    if not begins:
+        constants[epsilon] = sp.Rational(1, 4)
+    return steady_state_error(show, nu_failed, constants, *disturbed, *uncertain, damped=True, turned=turned, begins=begins)
+
+
+@paper.claim("theorem5.reading", "Theorem 5 with a plus before nu_Delta in (61) alone", "limit", LAW_61 % ""
+             + r"\ \Rightarrow\ \hat\xi\ \text{is bounded}", "refuted", origin="ours", closed_loop=True, rests_on=(), scope=ALL_SIGNALS,
+             reading="Decided as Theorem 5 is, at k_1 = k_2 = 1.", note="xi_hat grows like t.")
 def theorem_5_in_the_other_reading() -> Goal:
-    """(44) and (61) as the extracted text has them."""
-    return steady_state_error(at_most(z_1**2, epsilon), nu_failed,
-                           {**damped_constants, epsilon: sp.Rational(1, 4), k_1: sp.Integer(1000), k_2: sp.Integer(1000)},
-                           *disturbed, *uncertain, damped=True)
+    """(44) as printed, (61) with a plus."""
+    return _damped_loop(at_most(Xi_hat**2, t), 1, turned=True, begins=1)
 
 
-LEAKY = (r"\text{With}\ -\kappa\ \text{times the estimate in each adaptive law,}\ +\ \text{in (44) and (61), the weights of 45.mended:}\ ")
-E_0 = (r"E_0 = \tfrac{m_ik_\nu}{2\Gamma_{k\nu}}\rho_{k\nu}^2 + \tfrac{m_ik_\nu}{2\Gamma_{mi}}\rho_i^2 + \tfrac{m_i}{2\Gamma_\xi}\xi^T\xi + "
-       r"\tfrac{1}{2\Gamma_{ai}}a_i^2 + \dots")
+LEAKY = (r"-\kappa\ \text{times the estimate in each adaptive law, of every mode at all times,}\ +\ \text{in (44) and (61),}\ "
+         + WEIGHTS + r":\ ")
+E_0 = (r"E_0 = \tfrac{mk_\nu}{2\Gamma_{k\nu}}\rho_{k\nu}^2 + \tfrac{m}{2\Gamma_\xi}\xi^T\xi + \sum_{i=1}^{l}\left(\tfrac{mk_\nu}"
+       r"{2\Gamma_{mi}}\rho_i^2 + \tfrac{1}{2\Gamma_{ai}}a_i^2 + \dots + \tfrac{1}{2\Gamma_{Di}}D_i^2\right)")
+
+
+@paper.claim("65.leakage.idle", "With leakage the part of V_2 of an idle mode decays", "inequality",
+             r"\chi_{\varrho i} = 0:\ \dot V_i \le -\kappa V_i + \kappa E_i,\ V_i = \tfrac{1}{2\Gamma_{ai}}\tilde a_i^2 + \dots + "
+             r"\tfrac{m_ik_\nu}{2\Gamma_{mi}}\tilde\rho_i^2,\ E_i = \tfrac{1}{2\Gamma_{ai}}a_i^2 + \dots + "
+             r"\tfrac{m_ik_\nu}{2\Gamma_{mi}}\rho_i^2", "proved", origin="ours", scope="each idle mode")
+def idle_mode_leaky() -> Goal:
+    """Each estimate falls by itself."""
+    return idle_mode()
 
 
 @paper.claim("65.leakage", "Bound of the rate of V_2 with leakage", "inequality",
-             LEAKY + r"\dot{V}_2 \leq -r_1z_1^2 - r_2z_2^2 - \kappa E + \tfrac{b_0^2}{4k_1} + \tfrac{c_0^2}{4k_2} + \kappa E_0", "proved",
-             premises=("39", "25.idle", "44.mended", "61.glyph"), origin="ours", scope=ALL_SIGNALS,
-             reading="E is the part of V_2 that the estimation errors make, E_0 what it is while all estimates are zero: " + E_0,
-             note="The paper mentions leakage in section VI, and prints no law with it.")
+             LEAKY + r"\dot{V}_2 \leq -r_1z_1^2 - r_2z_2^2 - \kappa E + \tfrac{b_0^2}{4k_1} + \tfrac{c_0^2}{4k_2} + \kappa E_0,\ " + E_0, "proved",
+             premises=("39", "65.leakage.idle", "44.mended", "61.glyph"), origin="ours", scope=ALL_SIGNALS,
+             reading="E is the part of V_2 that the estimation errors of all modes make, E_0 what it is while all estimates are zero. "
+                     "Of the idle modes V_idle obeys 65.leakage.idle, summed over them.",
+             note="The paper mentions robust adaptation in section VI, and prints no law with it.")
 def v2_bound_leaky() -> Goal:
     """D(V_2) along the mended loop with leakage."""
-    return LEAKAGE["rate"]
+    return rate_of_every_mode()
 
 
 @paper.claim("65.leakage.decay", "The rate of V_2 with leakage is one of decay", "inequality",
@@ -200,12 +211,24 @@ def leaky_decay() -> Goal:
     return LEAKAGE["decay"]
 
 
-@paper.claim("theorem5.mended", "Theorem 5 with leakage in the adaptive laws", "implication",
-             LEAKY + r"V_2(t) \le \tfrac{\Lambda}{\mu} + \left(V_2(0) - \tfrac{\Lambda}{\mu}\right)e^{-\mu t},\ \mu = \min\{2r_1, 2r_2, "
-             r"\kappa\},\ \Lambda = \tfrac{b_0^2}{4k_1} + \tfrac{c_0^2}{4k_2} + \kappa E_0", "proved", origin="ours", mends="theorem5",
-             severity="result", scope=ALL_SIGNALS, premises=("65.leakage", "65.leakage.decay", "53.mended", "46.jump"),
-             reading="Between switches and failures, at which V_2 grows by a finite amount (46.jump); " + E_0 + ".",
-             note="So z_1, z_2 and all estimation errors are bounded, and with bounded x_m, x_m', x_m'' all other signals are. "
+@paper.claim("62.bounded", "The nonlinear damping is bounded with the speed", "inequality",
+             r"\nu_\Delta^2 \le 4B(k_1^2X^2 + k_2^2X^4)\ \text{for}\ z_2^2 \le 2B,\ x_2^2 \le X", "proved", origin="ours")
+def damping_bounded() -> Goal:
+    """Two terms, each bounded."""
+    return Goal((at_most(nu_damp**2, 4 * B * (k_1**2 * X_max**2 + k_2**2 * X_max**4)),),
+                (at_most(z_2**2, 2 * B), at_most(x_2**2, X_max)))
+
+
+@paper.claim("theorem5.mended", "Theorem 5 with a plus in (44) and (61), leakage in the adaptive laws and one mass in all modes", "implication",
+             r"\text{From the last failure on, time zero being then, with}\ " + LEAKY + r"V_2(t) \le \tfrac{\Lambda}{\mu} + \left(V_2(0) - "
+             r"\tfrac{\Lambda}{\mu}\right)e^{-\mu t},\ \mu = \min\{2r_1, 2r_2, \kappa\},\ \Lambda = \tfrac{b_0^2}{4k_1} + "
+             r"\tfrac{c_0^2}{4k_2} + \kappa E_0,\ " + E_0 + r"\text{; all signals are bounded, if}\ x_m, \dot x_m, \ddot x_m\ \text{and all}\ f_{j\rho}\ "
+             r"\text{are}", "proved", origin="ours", mends="theorem5",
+             severity="result", scope=ALL_SIGNALS,
+             premises=("65.leakage", "65.leakage.decay", "40.mended", "46.jump", "25.switch", "theorem1.bounded", "62.bounded",
+                       "47.signal.mended", "filippov"),
+             reading="V_2 has no jump at a switch (25.switch), and a finite one at a failure (46.jump).",
+             note="So z_1, z_2 and all estimation errors are bounded; x_2 by theorem1.bounded, nu_0 by 47.signal.mended with 62.bounded. "
                   "The errors end within a ball, they do not tend to zero.")
 def theorem_5_mended() -> Goal:
     """exp(mu t)(V_2 - Lambda/mu) does not increase."""
@@ -223,10 +246,10 @@ def small_constant() -> Goal:
     return Goal((at_most(constant, rho),), (at_least(k_1 * 2 * rho, b_0**2), at_least(k_2 * 2 * rho, c_0**2)))
 
 
-@paper.claim("remark4.mean", "What (65) says of the errors: a bound of their mean squares", "implication",
+@paper.claim("remark4.mean", "With (65) mended: a bound of the mean squares of the errors", "implication",
              r"\dot V_2 \le -r_1z_1^2 - r_2z_2^2 + K \Rightarrow \tfrac1t\int_0^t(r_1z_1^2 + r_2z_2^2)\,d\tau \le \tfrac{V_2(0)}{t} + K",
              "proved", premises=("65.mended",), origin="ours", mends="remark4", severity="result",
-             note="The part of Remark 4 that follows once (65) is repaired.")
+             note="The part of Remark 4 that follows from (65), which takes a plus in (44) and in (61) and one mass in all modes (65.mended).")
 def mean_square() -> Goal:
     """J + V - K t does not increase, where J is the integral."""
     return Goal((at_most(J, V_0 + K * t),), (at_least(V_t, 0), at_least(t, 0)),
@@ -238,11 +261,18 @@ def mean_square() -> Goal:
              r"\text{the tracking errors can achieve an arbitrary degree of accuracy. The larger the constants } k_1 > 0 "
              r"\text{ and } k_2 > 0 \text{ are, the smaller the tracking errors } z_1 \text{ and } z_2 \text{ are}",
              "refuted", match="words", severity="result", closed_loop=True, rests_on=("65", "remark4.constant"),
-             scope=ALL_SIGNALS, reading="Decided as z_1^2 <= 1/4 from some time on, at k_1 = k_2 = 1000, (61) read with a plus.",
-             note="False as printed, shown for k_1 = k_2 = 1000 and the same for all: " + STEADY_STATE_ERROR + "Even with the "
-                  "laws repaired (65) bounds the errors in the mean only (remark4.mean), not at each instant (65.ball).")
+             scope=ALL_SIGNALS, reading="Decided as z_1^2 <= 1/4 from some time on, at k_1 = k_2 = 1000.",
+             note="False as printed, shown for k_1 = k_2 = 1000: " + STEADY_STATE_ERROR + "With a plus in (61) Remark 4 falls too "
+                  "(remark4.reading). Even with the laws repaired (65) bounds the errors in the mean only (remark4.mean), not at each "
+                  "instant (65.ball).")
 def remark_4() -> Goal:
     """The printed closed loop, with a motion along which z_1 = 1."""
-    return steady_state_error(at_most(z_1**2, epsilon), nu_failed,
-                           {**damped_constants, epsilon: sp.Rational(1, 4), k_1: sp.Integer(1000), k_2: sp.Integer(1000)},
-                           *disturbed, *uncertain, damped=True, turned=True)
+    return _damped_loop(at_most(z_1**2, epsilon), 1000)
+
+
+@paper.claim("remark4.reading", "Remark 4 with a plus before nu_Delta in (61) alone", "limit", LAW_61 % "" + r",\ k_1 = k_2 = 1000\ "
+             r"\Rightarrow\ \lim_{t\to\infty} z_1^2(t) \le \tfrac14", "refuted", origin="ours", closed_loop=True, rests_on=(),
+             scope=ALL_SIGNALS)
+def remark_4_in_the_other_reading() -> Goal:
+    """(44) as printed, (61) with a plus."""
+    return _damped_loop(at_most(z_1**2, epsilon), 1000, turned=True)

@@ -16,7 +16,7 @@ from workbench.report.worded import worded
 
 def what_holds(decisions: Sequence[Decision], numbers: Mapping[str, int]) -> list[Block]:
     """The lines of the paper that are proved and rest on nothing that is not shown, by section: numbers, and of
-    headline statements and of lines without a number what they say. Those to which the text comes through a line that
+    headline statements, lines without a number and steps that the text only implies what they say. Those to which the text comes through a line that
     fails stand apart; headline statements that stand only with corrections are told before. Then the corrections that
     are of other parts of equations named here. numbers: of the corrections, by equation."""
     by_id = {d.claim.id: d for d in decisions}
@@ -51,14 +51,17 @@ def _by_section(proved: Sequence[Decision]) -> tuple[Item, ...]:
 
 def _named(own: Sequence[Decision]) -> str:
     numbered = [d for d in own if d.claim.equation[0].isdigit() and not is_headline(d)]
-    plain = places_of([d.claim.equation for d in numbered], {d.claim.equation: _short(d) for d in numbered})
+    implied = [d for d in numbered if d.claim.origin == "implied" and "." not in d.claim.equation]
+    printed = [d for d in numbered if d not in implied]
+    plain = listed(places_of([d.claim.equation for d in printed], {d.claim.equation: _short(d) for d in printed}))
+    steps = listed([f"({d.claim.equation}) “{d.claim.title}”" for d in implied])
     parts: dict[str, list[str]] = {}
     for d in own:
         if d not in numbered:
             whole, subject = whole_of(d.claim.equation, d.claim.title), subject_of(d.claim.title)
             parts.setdefault(whole, []).extend([subject] if subject != whole else [])
     told = [f"{whole} ({'; '.join(subjects)})" if subjects else whole for whole, subjects in parts.items()]
-    return worded("; ".join(filter(None, [listed(plain), *told])))
+    return worded("; ".join(filter(None, [plain, *told, steps and f"what the text implies at {steps}"])))
 
 
 def _short(d: Decision) -> str:
