@@ -61,7 +61,7 @@ def _folder(folder: Path, named: list[Path], workers: int | None) -> tuple[list[
     require_few(folder)
     with progress() as show:
         rows, bound = check_all(folder, papers_at_hand(folder, named), places(workers),
-                                lambda done, total: show("papers", done, total))
+                                lambda done, total: show("certificates", done, total))
     others = len({path for path, _, _ in rows}) - bound
     whole = f"the goals of their papers' claims: {bound}" if bound else ""
     alone = f"their manifest alone, for no claims are at hand: {others}" if others > 0 else ""

@@ -50,4 +50,4 @@ def command(paper: PaperOrFile, json: JsonFile = None,
         fronts = shown_fronts(loaded, front, workers, lambda at, total, _: show("fronts", at, total)) if runs else ()
     if json:
         write_json(json, gains_document(found, done, fronts))
-    print_study(gains_result(found, done, fronts), letters=True)
+    print_study(gains_result(found, done, fronts))

@@ -10,6 +10,8 @@ import typer
 
 from workbench.cli.console import out_console
 from workbench.errors import InputError
+from workbench.files.numbers import counted
+from workbench.proof.verdict import in_number
 
 VERBS = ("prove", "compare", "sweep --out FOLDER", "report --out FOLDER")
 
@@ -39,8 +41,8 @@ def _from_source(name: str, directory: Path, source: Path) -> None:
 
     found = write_from_source(name, directory, source)
     counts = Counter(found.verdicts.values())
-    lines = [f"written: {found.folder}, {len(found.verdicts)} rows: "
-             + ", ".join(f"{count} {verdict}" for verdict, count in counts.items())]
+    lines = [f"written: {found.folder}, {counted(len(found.verdicts), 'row')}: "
+             + ", ".join(f"{count} {in_number(verdict, count)}" for verdict, count in counts.items())]
     lines += [f"{name}:{row}  {verdict}" for row, verdict in found.verdicts.items() if row not in found.missing]
     lines += [f"{name}:{row}  not decided: {why}" for row, why in found.missing.items()]
     lines.append(f"to go on: fill in {found.folder / SYMBOLS}, then workbench prove {found.folder}")

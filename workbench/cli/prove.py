@@ -88,27 +88,28 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
         if single:
             _print_cards(proof, document)
         else:
-            _print_all(proof, all_rows, failed, verbose)
+            _print_all(proof, document, all_rows, failed, verbose)
         print_opinions(oracle, opinions, verbose)
     _end(proof, opinions)
 
 
 def _print_cards(proof: Proof, document: ClaimsDocument) -> None:
-    from workbench.cli.findings import print_counts
     from workbench.cli.terminal import claim_card
+    from workbench.cli.verdict_counts import verdict_lines
 
     for card in map(claim_card, document["claims"]):
         out_console.print(card)
-    print_counts(proof.decisions)
+    out_console.print(*verdict_lines(document), sep="\n")
 
 
-def _print_all(proof: Proof, all_rows: bool, failed: bool, verbose: bool) -> None:
-    from workbench.cli.findings import print_counts, print_findings, print_rows
+def _print_all(proof: Proof, document: ClaimsDocument, all_rows: bool, failed: bool, verbose: bool) -> None:
+    from workbench.cli.findings import print_findings, print_rows
+    from workbench.cli.verdict_counts import verdict_lines
 
     if all_rows:
         print_rows(proof.decisions)
     print_findings(proof.decisions, failed, verbose)
-    print_counts(proof.decisions)
+    out_console.print(*verdict_lines(document), sep="\n")
     by_certificate = f" ({len(proof.certified)} by the certificates at hand, checked again)" if proof.certified else ""
     out_console.print(f"{len(proof.now)} decided now{by_certificate}, "
                       f"{len(proof.decisions) - len(proof.now)} from the cache")

@@ -10,7 +10,8 @@ import typer
 from workbench.cli.console import out_console
 from workbench.cli.options import Dask, PaperOrFile, Workers, load, on_cluster
 from workbench.cli.study_tables import print_study
-from workbench.cli.terminal import metrics_table, print_failures, progress, summary_table, verdict_lines
+from workbench.cli.terminal import fate_lines, metrics_table, print_failures, progress, summary_table
+from workbench.cli.verdict_counts import verdict_lines
 from workbench.errors import InputError
 
 if TYPE_CHECKING:
@@ -60,14 +61,14 @@ def command(paper: PaperOrFile,
 
 def _print_study_report(made: StudyReport) -> None:
     if made.claims:
-        out_console.print(*verdict_lines(made.claims), sep="\n")
+        out_console.print(*verdict_lines(made.claims), *fate_lines(made.claims), sep="\n")
     print_study(made.result)
     _print_end(made.timings, made.page)
 
 
 def _print_report(made: Report) -> None:
     if made.claims:
-        out_console.print(*verdict_lines(made.claims), sep="\n")
+        out_console.print(*verdict_lines(made.claims), *fate_lines(made.claims), sep="\n")
     rows = [m.row() for m in made.comparison.metrics]
     out_console.print(metrics_table(rows, f"{made.comparison.scenario.name}: as stated"))
     print_failures(rows)

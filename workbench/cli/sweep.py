@@ -13,6 +13,7 @@ from workbench.cli.options import Dask, PaperOrFile, Workers, load, on_cluster
 from workbench.cli.study_tables import result_table
 from workbench.cli.terminal import progress, summary_table
 from workbench.errors import InputError
+from workbench.files.numbers import counted
 
 if TYPE_CHECKING:
     from workbench.paper.loading import Loaded
@@ -80,8 +81,8 @@ def command(paper: PaperOrFile,
     summaries = found.write_csv(out / CSV_NAME)
     out_console.print(summary_table(summaries, found.runs))
     for name, mean in found.means.items():
-        out_console.print(f"{name}: mean of {until_width} after {found.runs} runs: {mean.mean:g}, an interval of "
-                          f"{mean.width:g}", markup=False, highlight=False)
+        out_console.print(f"{name}: mean of {until_width} after {counted(found.runs, 'run')}: {mean.mean:g}, "
+                          f"an interval of {mean.width:g}", markup=False, highlight=False)
     out_console.print(f"rows: {out / CSV_NAME}", markup=False, highlight=False)
     end_where_all_failed(map(vars, found.rows()))
 

@@ -185,7 +185,7 @@ E_0 = (r"E_0 = \tfrac{m_ik_\nu}{2\Gamma_{k\nu}}\rho_{k\nu}^2 + \tfrac{m_ik_\nu}{
 @paper.claim("65.leakage", "Bound of the rate of V_2 with leakage", "inequality",
              LEAKY + r"\dot{V}_2 \leq -r_1z_1^2 - r_2z_2^2 - \kappa E + \tfrac{b_0^2}{4k_1} + \tfrac{c_0^2}{4k_2} + \kappa E_0", "proved",
              premises=("39", "25.idle", "44.mended", "61.glyph"), origin="ours", scope=ALL_SIGNALS,
-             reading="E is the part of V_2 that the estimation errors make, E_0 what it is while all estimates are zero: " + E_0,
+             reading="E is the part of V_2 that the estimation errors make, E_0 what it is while all estimates are zero: $" + E_0 + "$",
              note="The paper mentions leakage in section VI, and prints no law with it.")
 def v2_bound_leaky() -> Goal:
     """D(V_2) along the mended loop with leakage."""

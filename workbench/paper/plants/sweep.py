@@ -15,7 +15,7 @@ import numpy as np
 
 from workbench.errors import InputError
 from workbench.files.modules import python_files
-from workbench.files.numbers import unit_text
+from workbench.files.numbers import counted, unit_text
 from workbench.files.regular import contents
 from workbench.files.writing import make_folder, write_pieces
 from workbench.paper.cells import Column
@@ -114,7 +114,8 @@ class PlantSweep:
             name, unit = metric.title or metric.id.replace("_", " "), unit_text(metric.unit)
             header += [Column(f"{name}, mean", unit),
                        Column(f"{name}, {'least' if metric.measure == 'smallest' else 'largest'}", unit)]
-        return ResultTable(f"Monte Carlo, {self.runs} runs", f"plant {self.study.the_plant.id}", tuple(header),
+        return ResultTable(f"Monte Carlo, {counted(self.runs, 'run')}",
+                           f"plant {self.study.the_plant.id}", tuple(header),
                            tuple((name, *one.cells()) for name, one in zip(self.names, sums, strict=True)),
                            "Every controller meets the same drawn plants; failed runs are left out of the other "
                            "columns.")
