@@ -14,7 +14,7 @@ from workbench.cli.terminal import progress
 
 def command(paper: PaperOrFile, json: JsonFile = None,
             certificates: Annotated[Path | None, typer.Option(
-                help="Also write the certificates below this folder.")] = None,
+                metavar="FOLDER", help="Also write the certificates below this folder.")] = None,
             write: Annotated[bool, typer.Option(
                 "--write", help="Also write the certificates into the paper's own folder.")] = False,
             runs: Annotated[bool, typer.Option(help="Simulate the found gains beside the stated ones.")] = True,

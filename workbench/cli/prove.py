@@ -21,15 +21,15 @@ if TYPE_CHECKING:
 
 
 def command(paths: Annotated[list[str] | None, typer.Argument(
-                help="Papers' folders, a folder of them, proof files, and claims as in proofs/PAPER::24; "
-                     "default: proofs")] = None,
+                metavar="PAPER", help="Papers' folders, a folder of them, proof files, and claims as in "
+                "proofs/PAPER::24; default: proofs.")] = None,
             json: JsonFile = None,
             write: Annotated[bool, typer.Option(
                 "--write", help="Also write the certificates into 'certificates' in each paper's folder, or beside a "
                                 "proof file.")] = False,
             certificates: Annotated[Path | None, typer.Option(
                 metavar="FOLDER", help="Also write the certificates below this folder.")] = None,
-            all_rows: Annotated[bool, typer.Option("--all", help="Also every row in a line.")] = False,
+            all_rows: Annotated[bool, typer.Option("--all", help="Also every row, a line each.")] = False,
             failed: Annotated[bool, typer.Option(
                 "--failed", help="Every finding, slips and open readings too.")] = False,
             quiet: Annotated[bool, typer.Option(

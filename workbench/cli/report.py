@@ -20,15 +20,17 @@ if TYPE_CHECKING:
 
 def command(paper: PaperOrFile,
             proofs: Annotated[list[str] | None, typer.Argument(
-                help="Papers whose claims are on the page; default: the paper's own")] = None,
-            out: Annotated[Path, typer.Option(help="Folder of the report")] = Path("out"),
+                metavar="PROOFS", help="Papers whose claims are on the page; default: the paper's own.")] = None,
+            out: Annotated[Path, typer.Option(
+                metavar="FOLDER", help="Where the page and what belongs to it go.")] = Path("out"),
             runs: Annotated[int | None, typer.Option(
-                min=1, help="Monte Carlo runs; default: as the scenario states, few without --full")] = None,
+                metavar="N", min=1, help="Monte Carlo runs of a scenario; default: as it states, few without --full."
+            )] = None,
             full: Annotated[bool, typer.Option(
                 "--full", help="All of it, which takes minutes: also what the file marks only_full, and all drawn "
                 "trains that it states.")] = False,
             seed: Annotated[int | None, typer.Option(
-                min=0, help="Of the Monte Carlo; default: as the scenario states.")] = None,
+                metavar="N", min=0, help="Seed of the Monte Carlo; default: as the scenario states.")] = None,
             gains: Annotated[bool, typer.Option(
                 help="Also what is proved of the paper's gains, and better ones.")] = True,
             resume: Annotated[bool, typer.Option(

@@ -20,18 +20,21 @@ if TYPE_CHECKING:
 
 
 def command(paper: PaperOrFile,
-            out: Annotated[Path, typer.Option(help="Folder for sweep.csv, and the rows as Parquet")],
+            out: Annotated[Path, typer.Option(metavar="FOLDER", help="Where sweep.csv and the rows as Parquet go.")],
             runs: Annotated[int | None, typer.Option(
-                min=1, max=10**9, help="Runs per controller; default: 100, of a plant's study as it states.")] = None,
-            seed: Annotated[int | None, typer.Option(min=0, help="Default: as the scenario states.")] = None,
-            controller: Annotated[list[str] | None, typer.Option(help="Only this one; may be repeated.")] = None,
+                metavar="N", min=1, max=10**9, help="Runs a controller; default: 100, or as a plant's study states."
+                )] = None,
+            seed: Annotated[int | None, typer.Option(
+                metavar="N", min=0, help="Seed of the draws; default: as the scenario states.")] = None,
+            controller: Annotated[list[str] | None, typer.Option(
+                metavar="NAME", help="Only this one; may be repeated.")] = None,
             sensitivity: Annotated[bool, typer.Option(
                 "--sensitivity", help="Instead: all values of the joint_sensitivity table at once, and which decides.")
             ] = False,
-            resume: Annotated[bool, typer.Option(help="Go on after an interruption.")] = False,
+            resume: Annotated[bool, typer.Option("--resume", help="Go on with the rows kept in --out.")] = False,
             draws: Annotated[Literal["random", "sobol"], typer.Option(
-                help="By chance, or spread evenly by a scrambled Sobol' sequence (best with a power of two of runs)."
-            )] = "random",
+                help="How trains are drawn: by chance, or spread evenly by a scrambled Sobol' sequence (best with a "
+                     "power of two of runs).")] = "random",
             until_width: Annotated[str | None, typer.Option(
                 metavar="METRIC=WIDTH", help="End before --runs once the 95 % interval of every controller's mean of "
                 "this column is so narrow.")] = None,

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from workbench.errors import InputError
+from workbench.files.known_names import one_of
 from workbench.files.modules import python_files
 from workbench.files.numbers import counted, unit_text
 from workbench.files.regular import contents
@@ -135,8 +136,8 @@ def sweep(study: LocatedPlantStudy, runs: int | None = None, seed: int | None = 
     names = list(dict.fromkeys(controllers or entrants))
     for name in names:
         if name not in entrants:
-            raise InputError(study.file, "controllers", f"'{name}' is no controller of this study: choose among "
-                             f"{', '.join(entrants)}")
+            raise InputError(study.file, "controllers", f"'{name}' is no controller of this study: "
+                             f"{one_of(name, entrants)}")
     stated = study.uncertainty
     runs = runs or (stated.runs if stated else 1)
     seed = seed if seed is not None else stated.seed if stated else 0
