@@ -44,6 +44,11 @@ class PageFigure:
     chart: Markup
     csv: str
 
+    @property
+    def name(self) -> str:
+        """What its caption calls it, for what reads pages aloud."""
+        return plain_words(self.caption.partition(". ")[0].removesuffix("."))
+
 
 def page_figure(anchor: str, svg: str, caption: str, chart: Chart, file: str) -> PageFigure:
     """A figure with its chart, of which `file` is the name of its CSV file."""
