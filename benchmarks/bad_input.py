@@ -44,7 +44,7 @@ ARGUMENT = "argument"
 BOUNDS = (
     "--fleet", "--time", "--intervals", "--window", "--dwell", "--every", "--from", "--to-m", "--max-jerk", "--runs",
     "--seed", "--workers", "--limit", "--seconds", "--until-width", "--draws", "--bogus", "--json", "--out", "--csv",
-    "--figure", "--controller", "--claim-digest", "--paper", "--certificates", "--solver", "--directory", "--help",
+    "--figure", "--controller", "--claim-digest", "--paper", "--certificates", "--solver", "--help",
     "--version", "--plant", "--record", "--rare", "--search", "--symbols", "--etcs", "--full", "--write", "--resume",
 )
 
@@ -172,7 +172,7 @@ def run(case: Case, folders: Path, place: Path, apart: bool = False) -> Ended:
 
 def _outputs_of(arguments: list[str]) -> list[str]:
     """What options of the command line name as outputs."""
-    options = ("--json", "--out", "--csv", "--figure", "--certificate", "--certificates", "--directory")
+    options = ("--json", "--out", "--csv", "--figure", "--certificate", "--certificates")
     named = [os.path.normpath(value) for option, value in pairwise(arguments) if option in options]
     named += map(os.path.normpath, arguments[1:2] if arguments[0] == "examples" else ())
     # A reference writes its curves beside the file that is named, under the same stem.

@@ -105,7 +105,7 @@ def test_several_places_are_summed_up_in_a_sentence_a_learner():
         "Beside MPC, which knows the train and drives it once, in speed RMS: the learner finishes in 2 of 3 places and "
         "overtakes linear MPC in 1 (at trials 3) of them within 3 trials."]
     table = next(compared.tables(STUDY, rows))
-    assert len(table.rows) == 6 and "Both know the line. MPC counted QP 21." in table.note
+    assert len(table.rows) == 6 and "Both know the line. MPC counted quadratic programs 21." in table.note
     assert len(list(compared.plots(STUDY, rows))) == 1, "the tuning's place alone is drawn"
 
 

@@ -134,7 +134,7 @@ def test_sentences_say_who_is_nearest_as_stated_and_as_tuned(study):
 def test_the_note_says_what_mpc_plans_with_and_counted(study):
     note = comparison_note(study, compared(study), 0.01, "Nobody knows.")
     assert note.startswith("MPC every 0.1 s, 20 samples ahead, limits of 1 m/s², the laws every 0.01 s, without")
-    assert "Nobody knows. MPC counted QP 24. Tuned: by 'workbench tune', 10 runs" in note
+    assert "Nobody knows. MPC counted quadratic programs 24. Tuned: by 'workbench tune', 10 runs" in note
     assert note.endswith("The tuning's runs are shorter than these, see the file.")
     assert counters_words([{"late": 0}]) == "nothing"
 

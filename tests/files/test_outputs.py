@@ -138,7 +138,7 @@ REFUSED = {
     "examples into a file": ("examples", "a_file"),
     "examples into a full folder": ("examples", "full"),
     "new-paper over a paper": ("new-paper", "doe2026"),
-    "new-paper into a file": ("new-paper", "doe2027", "--directory", "a_file"),
+    "new-paper into a file": ("new-paper", "doe2027", "--out", "a_file"),
 }
 
 

@@ -15,9 +15,11 @@ def test_several_processes_find_what_one_finds(tmp_path, monkeypatch):
         shutil.copytree(ROOT / "proofs" / paper / "certificates", tmp_path / paper)
     spoiled = sorted((tmp_path / "goodwin1980").glob("*.json"))[0]
     spoiled.write_text(spoiled.read_text(encoding="utf-8").replace('"version": 2', '"version": 3'), encoding="utf-8")
-    rows, _ = checking.check_all(tmp_path, {}, 2)
+    counted = []
+    rows, _ = checking.check_all(tmp_path, {}, 2, lambda done, total: counted.append((done, total)))
     assert rows == check_folder(tmp_path)
     assert [path for path, _, reason in rows if reason] == [spoiled]
+    assert len(counted) == 2 and counted[-1] == (len(rows), len(rows))  # certificates, a paper's at once
 
 
 def test_a_part_of_a_theorem_that_was_changed_is_checked_though_its_certificate_was_accepted():

@@ -3,6 +3,7 @@
 import hashlib
 import json
 import re
+import tomllib
 from fractions import Fraction
 from pathlib import Path
 
@@ -94,6 +95,14 @@ def test_the_committed_errata_are_what_is_made_now(paper, decisions):
     assert texts["errata.md"] == (folder / "errata.md").read_text(encoding="utf-8")
     made = made_in_a_fork(pdf_of, errata(own, stated.citation, stated.at_hand))
     assert made == (folder / "errata.pdf").read_bytes()
+
+
+@pytest.mark.parametrize("paper", PAPERS)
+def test_a_report_cites_the_paper_as_its_errata_do(paper):
+    """Which text was at hand is said on both."""
+    stated = next(found for found in collect_papers([PROOFS / paper]) if found.name == paper)
+    study = tomllib.loads((PROOFS / paper / "study.toml").read_text(encoding="utf-8"))
+    assert study["citation"] == stated.citation.removesuffix(".")
 
 
 def test_no_certificate_is_left_of_a_claim_that_is_no_longer_made(decisions):

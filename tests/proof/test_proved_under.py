@@ -4,7 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from workbench.cli.terminal import count_words, verdict_colour
+from workbench.cli.terminal import verdict_colour
+from workbench.cli.verdict_counts import count_words
 from workbench.proof.document import Places, claims_document
 from workbench.proof.fate import judged
 from workbench.proof.premises import proved_under

@@ -44,7 +44,7 @@ CLAIMS = {
 def address(tmp_path_factory):
     folder = tmp_path_factory.mktemp("page")
     gains = ResultTable("Conditions", "paper", ("gains", "condition", r"$\dot V$"),
-                        (("stated", "k < 2", "1"), ("", "k < 3", "2"), (r"$\hat k$", "", "3")))
+                        (("stated", "k < 2", "1"), ("", "k < 3", "2"), (r"$\hat k$", "", "3")), letters=True)
     many = ResultTable("Rows", "paper", ("row",), tuple((row,) for row in "abcdefghijklmn"))
     content = ReportContent(scenario=load_scenario(write_scenario(folder)), claims=CLAIMS,
                             gains=StudyResult((), (gains, many), (), ()),

@@ -108,7 +108,13 @@ def test_no_line_begins_with_the_punctuation_behind_a_formula():
     assert shown.count('<span class="unbroken">') == 3
     for mark in (",", ")", "."):
         assert f"</math>{mark}</span>" in shown
+    assert "</math>”,</span>" in in_html("“the rate of $V$”, which fails")
     assert str(in_html("<b> & $x$")) == "&lt;b&gt; &amp; " + str(formula("x"))
+
+
+def test_two_primes_behind_an_index_stand_beside_each_other_and_bars_close_to_what_they_hold():
+    assert "<msup>" not in formula("x_{m}''") and "<mi>″</mi>" in formula("x_{m}''")
+    assert str(formula("|x|")).count('lspace="0" rspace="0"') == 2
 
 
 def test_a_long_list_of_formulas_may_break_behind_its_commas():

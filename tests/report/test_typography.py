@@ -33,6 +33,12 @@ def test_a_formula_keeps_its_own_signs():
     assert "−" in in_words("at -2 it is $x_1 - 2$") and "<math" in in_words("at -2 it is $x_1 - 2$")
 
 
+def test_a_greek_letter_is_one_by_its_name_too():
+    for sign, name in (("λ_min", "lambda_min"), ("c_λ > 0", "c_lambda > 0"), ("at γ_a", "at gamma_a")):
+        assert in_words(sign) == in_words(name) and "<msub>" in in_words(sign)
+    assert in_words("αβ") == "αβ"
+
+
 @pytest.mark.parametrize(("stated", "shown"), [
     (["2", "", "5.1", "4", "10"], ["2", "4", "5.1", "10", ""]),  # by their numbers, what has none last
     (["V", "", "III"], ["V", "III", ""])])  # no numbers: as they come

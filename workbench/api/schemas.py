@@ -11,6 +11,7 @@ from pydantic import TypeAdapter
 
 from workbench.errors import InputError
 from workbench.files.folders import is_folder
+from workbench.files.known_names import one_of
 from workbench.files.modules import has_module
 from workbench.paper.loading import study_file, study_kind
 
@@ -77,8 +78,8 @@ def schema(what: str | Path) -> dict[str, Any]:
             raise InputError(path, "", "has no study of a paper's own beside it (study/__init__.py): name its format, "
                              "such as scenario")
         return _made(study_kind(path).record, f"the study of {path.parent.name} in TOML")
-    names = ", ".join(one.name for one in FORMATS)
-    raise InputError("", str(what), f"is no format and no study's folder: name a folder, or one of {names}")
+    raise InputError("", str(what), "is no format and no study's folder: "
+                     f"{one_of(str(what), [one.name for one in FORMATS])}, or name a folder")
 
 
 def schemas() -> dict[str, dict[str, Any]]:

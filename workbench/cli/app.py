@@ -24,6 +24,7 @@ from typer.exceptions import TyperException
 from typer.main import get_command
 
 from workbench.cli.console import err_console, out_console
+from workbench.cli.help_words import Verb, in_own_words
 from workbench.cli.option_mistakes import in_plain_words
 from workbench.cli.options import Version
 from workbench.cli.unused import import_unused_later
@@ -59,6 +60,10 @@ class Verbs(TyperGroup):
         del ctx
         return _verb(cmd_name) if cmd_name in VERBS else None
 
+    def get_params(self, ctx: Any) -> list[Any]:
+        """The options that come before a verb."""
+        return in_own_words(super().get_params(ctx))
+
 
 @cache
 def _verb(name: str) -> Any:
@@ -66,7 +71,8 @@ def _verb(name: str) -> Any:
     alone = typer.Typer(add_completion=False)
     paragraphs = (inspect.getdoc(module.command) or "").split("\n\n")
     said = "\n\n".join(" ".join(paragraph.split()) for paragraph in paragraphs)  # lines end where the terminal does
-    alone.command(name, help=said, context_settings=getattr(module, "CONTEXT", None))(_answering(module.command))
+    settings = getattr(module, "CONTEXT", None)
+    alone.command(name, cls=Verb, help=said, context_settings=settings)(_answering(module.command))
     return get_command(alone)
 
 
@@ -90,7 +96,7 @@ def _answering(command: Callable[..., Any]) -> Callable[..., Any]:
 app = typer.Typer(cls=Verbs, no_args_is_help=True, add_completion=True, pretty_exceptions_enable=False,
                   help="A control paper as one executable object: proof, simulation, comparison. Begin with 'workbench "
                        "list' and one of the papers that it names, as in 'workbench prove PAPER'; without a clone "
-                       "write them with 'workbench examples DIR' first.")
+                       "write them with 'workbench examples FOLDER' first.")
 
 
 @app.callback()

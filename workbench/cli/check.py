@@ -14,10 +14,10 @@ from workbench.cli.terminal import answer_card
 CONTEXT = {"ignore_unknown_options": True}  # a line may begin with a minus
 
 
-def command(line: Annotated[str, typer.Argument(metavar="LATEX", help="The line, as in '\\dot V \\le 0'")],
+def command(line: Annotated[str, typer.Argument(metavar="LATEX", help="The line, as in '\\dot V \\le 0'.")],
             symbols: Annotated[Path, typer.Option(
-                help="TOML file with symbols, definitions, assumptions and flow, or the folder or name of a paper, "
-                     "whose Python is run.")],
+                metavar="FILE", help="TOML file with symbols, definitions, assumptions and flow, or the folder or name "
+                "of a paper, whose Python is run.")],
             json: JsonFile = None, limit: Limit = LIMIT_S) -> None:
     """Decide a line of LaTeX; exit 0 when it is proved, 1 when it is not, 2 on bad input."""
     from workbench.errors import ClaimError, InputError

@@ -16,18 +16,20 @@ if TYPE_CHECKING:
     from workbench.proof.checker import Row
 
 
-def command(folder: Annotated[Path, typer.Argument(help="Folder with certificates in it or below it, or one file")],
+def command(folder: Annotated[Path, typer.Argument(
+                metavar="FOLDER", help="A folder with certificates in it or below it, or one certificate's file.")],
             paper: Annotated[list[Path] | None, typer.Option(
-                help="A paper's folder or proof file whose claims the certificates must be of; a folder of "
-                     "certificates in its paper's own is held against it without.")] = None,
+                metavar="PAPER", help="A paper's folder or proof file whose claims the certificates must be of; may be "
+                "repeated. Not needed for certificates in the paper's own folder.")] = None,
             claim_digest: Annotated[str | None, typer.Option(
-                help="For one file: the goal digest of the claim that it must be of.")] = None,
+                metavar="DIGEST", help="For one file: the goal digest of the claim that it must be of.")] = None,
             workers: Workers = None) -> None:
     """Re-check certificates with checker.py; exit 0 when all hold, 1 when one does not.
 
     They are held against their manifest and, where it is at hand, the paper whose claims they are of, whose own Python
     is run for that.
     """
+    from workbench.files.text import nearly_called
     from workbench.proof.checker import check_file
 
     if folder.is_file():
@@ -38,7 +40,8 @@ def command(folder: Annotated[Path, typer.Argument(help="Folder with certificate
         rows, bound = _folder(folder, paper or [], workers)
     if not rows:
         there = "holds no certificate (*.json): run 'workbench prove --write' first"
-        raise InputError(folder, "", there if folder.exists() else "no such folder or file: check the path")
+        gone = f"no such folder or file: check the path{nearly_called(folder)}"
+        raise InputError(folder, "", there if folder.exists() else gone)
     wrong = {path for path, _, reason in rows if reason is not None}
     for path, verdict, reason in rows:
         if reason is not None:
@@ -61,7 +64,7 @@ def _folder(folder: Path, named: list[Path], workers: int | None) -> tuple[list[
     require_few(folder)
     with progress() as show:
         rows, bound = check_all(folder, papers_at_hand(folder, named), places(workers),
-                                lambda done, total: show("papers", done, total))
+                                lambda done, total: show("certificates", done, total))
     others = len({path for path, _, _ in rows}) - bound
     whole = f"the goals of their papers' claims: {bound}" if bound else ""
     alone = f"their manifest alone, for no claims are at hand: {others}" if others > 0 else ""

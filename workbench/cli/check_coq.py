@@ -13,7 +13,7 @@ from workbench.cli.options import JsonFile, Workers, path_of
 from workbench.cli.terminal import progress
 
 
-def command(folder: Annotated[Path, typer.Argument(metavar="DIR", help="What export-coq wrote.")],
+def command(folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="What export-coq wrote.")],
             workers: Workers = None, json: JsonFile = None,
             record: Annotated[str | None, typer.Option(
                 metavar="PAPER", help="Also note in this paper's folder which of its certificates the kernel has "
@@ -22,7 +22,7 @@ def command(folder: Annotated[Path, typer.Argument(metavar="DIR", help="What exp
                 "--only-new", help="With --record: leave out the goals that it has already, of the same version of Coq."
             )] = False,
             seconds: Annotated[float, typer.Option(
-                min=1, max=86_400, help="Processor seconds that coqc may take for one file.")] = 120) -> None:
+                metavar="S", min=1, max=86_400, help="Seconds of processor time for one file.")] = 120) -> None:
     """Run coqc on every file that export-coq wrote; exit 0 when the kernel accepts all of them, 1 when it refuses one.
 
     What was not exported is listed with its reason and refuses nothing."""

@@ -13,7 +13,8 @@ from workbench.errors import InputError
 
 
 def command(paper: PaperOrFile, json: JsonFile = None,
-            variants: Annotated[bool, typer.Option(help="Also run the scenario's variants.")] = False,
+            variants: Annotated[bool, typer.Option(
+                "--variants", help="Also run the scenario's variants.")] = False,
             out: Annotated[Path | None, typer.Option(
                 metavar="FOLDER", help="Where a contest keeps its finished runs.")] = None,
             resume: Annotated[bool, typer.Option("--resume", help="Go on with the runs kept in --out.")] = False,

@@ -10,7 +10,7 @@ import typer
 from workbench.cli.console import out_console
 
 
-def command(directory: Annotated[Path, typer.Argument(help="A new or empty folder")]) -> None:
+def command(directory: Annotated[Path, typer.Argument(metavar="FOLDER", help="A new or empty folder.")]) -> None:
     """Write the papers' folders, and the lines, trains and contests they share, into a folder of yours."""
     from workbench.paper.examples import write_examples
 

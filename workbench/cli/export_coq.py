@@ -15,7 +15,7 @@ from workbench.cli.options import path_of
 
 def command(paper: Annotated[str, typer.Argument(metavar="PAPER", help="A paper's folder, its name, or a folder of "
                                                                        "certificates.")],
-            out: Annotated[Path, typer.Option(metavar="DIR", help="Where the Coq files go.")]) -> None:
+            out: Annotated[Path, typer.Option(metavar="FOLDER", help="Where the Coq files go.")]) -> None:
     """Write one Coq file a certificate, statement and proof, which check-coq runs.
 
     The statement is made from the goal, the proof from the certificate's steps; the library that they share is written

@@ -9,10 +9,9 @@ from rich.padding import Padding
 from rich.text import Text
 
 from workbench.cli.console import out_console
-from workbench.cli.terminal import COLOURS, count_words, verdict_colour
+from workbench.cli.terminal import COLOURS, verdict_colour
 from workbench.proof.places import section_of_place
-from workbench.proof.premises import holds_in_other_reading
-from workbench.proof.verdict import FAILED, VERDICTS, Decision, FateWord, verdict_words
+from workbench.proof.verdict import Decision, FateWord, verdict_words
 from workbench.report.finding import Finding, Gravity, findings
 from workbench.report.finding_sentences import (
     HEADINGS,
@@ -87,29 +86,6 @@ def print_rows(decisions: Sequence[Decision]) -> None:
         shown = d.computed or d.method
         verdict = verdict_words(d.verdict, d.proved_under), verdict_colour(d.verdict, d.proved_under)
         _paragraph(Text.assemble(f"{d.claim.id}  ", verdict, f"  {d.claim.title}", (f"  ({shown})", "dim")), 0)
-
-
-def print_counts(decisions: Sequence[Decision]) -> None:
-    """How many lines of the papers have which verdict, and how many questions of ours."""
-    by_id = {d.claim.id: d for d in decisions}
-    for ours, what in ((False, "line{} of the paper{}"), (True, "question{} of ours")):
-        of_them = [d for d in decisions if (d.claim.origin == "ours") == ours]
-        charged = [d for d in of_them if d.verdict not in FAILED or not holds_in_other_reading(d, by_id)]
-        counts, under = Counter(d.verdict for d in charged), sum(bool(d.proved_under) for d in of_them)
-        papers, total = len({d.claim.paper for d in decisions}), len(of_them)
-        if total:
-            line = Text(f"{total} {what.format('' if total == 1 else 's', '' if papers == 1 else 's')}: ")
-            line.append_text(Text(", ").join(Text(count_words(v, counts[v], under), COLOURS[v])
-                                             for v in VERDICTS if counts[v]))
-            if readings := total - len(charged):
-                line.append("; one more fails only as extracted and holds in another reading" if readings == 1 else
-                            f"; {readings} more fail only as extracted and hold in another reading")
-            if by_kernel := sum(d.trust == "kernel" for d in of_them):
-                certified = sum(d.certificate is not None for d in of_them)
-                all_of_them = "its certificate" if certified == 1 else f"all {certified} certificates"
-                accepted = all_of_them if by_kernel == certified else f"{by_kernel} of their {certified} certificates"
-                line.append(f"; Coq's kernel accepts {accepted} too")
-            _paragraph(line, 0)
 
 
 def _paragraph(text: Text, indent: int) -> None:

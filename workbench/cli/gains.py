@@ -14,7 +14,7 @@ from workbench.cli.terminal import progress
 
 def command(paper: PaperOrFile, json: JsonFile = None,
             certificates: Annotated[Path | None, typer.Option(
-                help="Also write the certificates below this folder.")] = None,
+                metavar="FOLDER", help="Also write the certificates below this folder.")] = None,
             write: Annotated[bool, typer.Option(
                 "--write", help="Also write the certificates into the paper's own folder.")] = False,
             runs: Annotated[bool, typer.Option(help="Simulate the found gains beside the stated ones.")] = True,
@@ -50,4 +50,4 @@ def command(paper: PaperOrFile, json: JsonFile = None,
         fronts = shown_fronts(loaded, front, workers, lambda at, total, _: show("fronts", at, total)) if runs else ()
     if json:
         write_json(json, gains_document(found, done, fronts))
-    print_study(gains_result(found, done, fronts), letters=True)
+    print_study(gains_result(found, done, fronts))

@@ -48,14 +48,15 @@ def _workers(count: int | None) -> int | None:
     return count
 
 
-Workers = Annotated[int | None, typer.Option(min=1, callback=_workers, help="Processes; default: one a core.")]
+Workers = Annotated[int | None, typer.Option(
+    metavar="N", min=1, callback=_workers, help="Processes; default: one a core.")]
 LIMIT_S = 60.0
 Limit = Annotated[float, typer.Option(
-    min=0.1, help="Seconds of processor time for one claim; what takes longer stays undecided.")]
+    metavar="S", min=0.1, help="Seconds of processor time for one claim; what takes longer stays undecided.")]
 Dask = Annotated[str | None, typer.Option(
     "--dask", metavar="ADDRESS", help="Run on the Dask cluster whose scheduler is there; 'local' starts one here.")]
 PaperOrFile = Annotated[str, typer.Argument(
-    metavar="PAPER", help="A paper's folder, its name, or the TOML file of a scenario, study or contest")]
+    metavar="PAPER", help="A paper's folder, its name, or the TOML file of a scenario, study or contest.")]
 Version = Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Say the version.")]
 
 
@@ -90,7 +91,7 @@ def path_of(argument: str) -> Path:
         names = [folder.name for folder in papers_near(Path.cwd())]
         near = get_close_matches(argument, names, n=1)
         hint = f"did you mean '{near[0]}'?" if near else f"name one of {', '.join(names)}" if names else (
-            "name its folder, or write examples with 'workbench examples DIR'")
+            "name its folder, or write examples with 'workbench examples FOLDER'")
         raise InputError("", argument, f"is no file, folder or paper here: {hint}")
     return found
 

@@ -21,15 +21,15 @@ if TYPE_CHECKING:
 
 
 def command(paths: Annotated[list[str] | None, typer.Argument(
-                help="Papers' folders, a folder of them, proof files, and claims as in proofs/PAPER::24; "
-                     "default: proofs")] = None,
+                metavar="PAPER", help="Papers' folders, a folder of them, proof files, and claims as in "
+                "proofs/PAPER::24; default: proofs.")] = None,
             json: JsonFile = None,
             write: Annotated[bool, typer.Option(
                 "--write", help="Also write the certificates into 'certificates' in each paper's folder, or beside a "
                                 "proof file.")] = False,
             certificates: Annotated[Path | None, typer.Option(
                 metavar="FOLDER", help="Also write the certificates below this folder.")] = None,
-            all_rows: Annotated[bool, typer.Option("--all", help="Also every row in a line.")] = False,
+            all_rows: Annotated[bool, typer.Option("--all", help="Also every row, a line each.")] = False,
             failed: Annotated[bool, typer.Option(
                 "--failed", help="Every finding, slips and open readings too.")] = False,
             quiet: Annotated[bool, typer.Option(
@@ -88,27 +88,28 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
         if single:
             _print_cards(proof, document)
         else:
-            _print_all(proof, all_rows, failed, verbose)
+            _print_all(proof, document, all_rows, failed, verbose)
         print_opinions(oracle, opinions, verbose)
     _end(proof, opinions)
 
 
 def _print_cards(proof: Proof, document: ClaimsDocument) -> None:
-    from workbench.cli.findings import print_counts
     from workbench.cli.terminal import claim_card
+    from workbench.cli.verdict_counts import verdict_lines
 
     for card in map(claim_card, document["claims"]):
         out_console.print(card)
-    print_counts(proof.decisions)
+    out_console.print(*verdict_lines(document), sep="\n")
 
 
-def _print_all(proof: Proof, all_rows: bool, failed: bool, verbose: bool) -> None:
-    from workbench.cli.findings import print_counts, print_findings, print_rows
+def _print_all(proof: Proof, document: ClaimsDocument, all_rows: bool, failed: bool, verbose: bool) -> None:
+    from workbench.cli.findings import print_findings, print_rows
+    from workbench.cli.verdict_counts import verdict_lines
 
     if all_rows:
         print_rows(proof.decisions)
     print_findings(proof.decisions, failed, verbose)
-    print_counts(proof.decisions)
+    out_console.print(*verdict_lines(document), sep="\n")
     by_certificate = f" ({len(proof.certified)} by the certificates at hand, checked again)" if proof.certified else ""
     out_console.print(f"{len(proof.now)} decided now{by_certificate}, "
                       f"{len(proof.decisions) - len(proof.now)} from the cache")

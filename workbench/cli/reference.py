@@ -12,29 +12,33 @@ from workbench.cli.options import Dask, JsonFile, Workers, on_cluster
 from workbench.errors import InputError
 
 
-def command(track: Annotated[Path | None, typer.Argument(help="Line: TOML of this project or TTOBench JSON")] = None,
-            train: Annotated[Path | None, typer.Argument(help="Train: TOML of this project or TTOBench JSON")] = None,
+def command(track: Annotated[Path | None, typer.Argument(
+                metavar="TRACK", help="The line: TOML of this project, or JSON of TTOBench.")] = None,
+            train: Annotated[Path | None, typer.Argument(
+                metavar="TRAIN", help="The train: TOML of this project, or JSON of TTOBench.")] = None,
             time: Annotated[float | None, typer.Option(metavar="S", help="Trip time in s, with its stops.")] = None,
             timetable: Annotated[Path | None, typer.Option(
                 metavar="FILE", help="Windows on the way: TOML, or a journey of TTOBench; not with --time.")] = None,
             stops: Annotated[bool, typer.Option("--stops", help="Serve the line's stops on the way.")] = False,
-            dwell: Annotated[float, typer.Option(metavar="S", help="Wait at each stop on the way.")] = 30.0,
-            from_m: Annotated[float, typer.Option(metavar="M", help="Where the run starts.")] = 0.0,
-            to_m: Annotated[float | None, typer.Option(metavar="M", help="Where it ends; default: the end.")] = None,
+            dwell: Annotated[float, typer.Option(metavar="S", help="Wait at each stop on the way, in s.")] = 30.0,
+            from_m: Annotated[float, typer.Option(metavar="M", help="Where the run starts, in m.")] = 0.0,
+            to_m: Annotated[float | None, typer.Option(
+                metavar="M", help="Where it ends, in m; default: the end.")] = None,
             from_speed: Annotated[float, typer.Option(metavar="MPS", help="Speed at the start in m/s.")] = 0.0,
             to_speed: Annotated[float, typer.Option(metavar="MPS", help="Speed at the end in m/s.")] = 0.0,
             intervals: Annotated[int | None, typer.Option(
-                min=10, max=20_000, help="Of the plan's mesh; default: as many as the gap asks for.")] = None,
+                metavar="N", min=10, max=20_000, help="Intervals of the plan's mesh; default: as many as the gap asks "
+                "for.")] = None,
             solver: Annotated[Literal["auto", "socp", "nlp"], typer.Option(
-                help="Cone program, nonlinear program, or what the gap asks for.")] = "auto",
+                help="Nonlinear program, cone program (socp), or what the gap asks for (auto).")] = "auto",
             window: Annotated[float | None, typer.Option(
-                metavar="S", help="Over which acceleration is smoothed; default: 1, less where that takes too long.")
+                metavar="S", help="Time over which acceleration is smoothed; default: 1, less where that is too much.")
             ] = None,
-            max_jerk: Annotated[float | None, typer.Option(metavar="MPS3", help="Limit of the jerk.")] = None,
+            max_jerk: Annotated[float | None, typer.Option(metavar="MPS3", help="Limit of the jerk in m/s^3.")] = None,
             json: JsonFile = None,
             csv: Annotated[Path | None, typer.Option(
                 metavar="FILE", help="The smooth reference as CSV; default: beside the JSON.")] = None,
-            every: Annotated[float, typer.Option(metavar="S", help="Step of the CSV.")] = 0.5,
+            every: Annotated[float, typer.Option(metavar="S", help="Step of the CSV in s.")] = 0.5,
             figure: Annotated[Path | None, typer.Option(metavar="FILE", help="Figure as SVG, PNG or PDF.")] = None,
             certificate: Annotated[Path | None, typer.Option(
                 metavar="FILE", help="Write the bound's certificate, and re-check it exactly.")] = None,
@@ -46,7 +50,7 @@ def command(track: Annotated[Path | None, typer.Argument(help="Line: TOML of thi
                 metavar="FILE", help="A day's trips (TOML) instead of TRACK and TRAIN; with --json, --csv.")] = None,
             workers: Workers = None, dask: Dask = None,
             resume: Annotated[bool, typer.Option(
-                "--resume", help="Of --fleet: take the finished trips of --json.")] = False) -> None:
+                "--resume", help="With --fleet: go on with the finished trips in --json.")] = False) -> None:
     """The energy-optimal run of a train on a line, a smooth reference, and a proven bound on what could be saved."""
     if fleet:
         if track or train or time is not None or timetable:

@@ -10,7 +10,8 @@ import typer
 from workbench.cli.console import out_console
 from workbench.cli.options import Dask, PaperOrFile, Workers, load, on_cluster
 from workbench.cli.study_tables import print_study
-from workbench.cli.terminal import metrics_table, print_failures, progress, summary_table, verdict_lines
+from workbench.cli.terminal import fate_lines, metrics_table, print_failures, progress, summary_table
+from workbench.cli.verdict_counts import verdict_lines
 from workbench.errors import InputError
 
 if TYPE_CHECKING:
@@ -19,15 +20,17 @@ if TYPE_CHECKING:
 
 def command(paper: PaperOrFile,
             proofs: Annotated[list[str] | None, typer.Argument(
-                help="Papers whose claims are on the page; default: the paper's own")] = None,
-            out: Annotated[Path, typer.Option(help="Folder of the report")] = Path("out"),
+                metavar="PROOFS", help="Papers whose claims are on the page; default: the paper's own.")] = None,
+            out: Annotated[Path, typer.Option(
+                metavar="FOLDER", help="Where the page and what belongs to it go.")] = Path("out"),
             runs: Annotated[int | None, typer.Option(
-                min=1, help="Monte Carlo runs; default: as the scenario states, few without --full")] = None,
+                metavar="N", min=1, help="Monte Carlo runs of a scenario; default: as it states, few without --full."
+            )] = None,
             full: Annotated[bool, typer.Option(
                 "--full", help="All of it, which takes minutes: also what the file marks only_full, and all drawn "
                 "trains that it states.")] = False,
             seed: Annotated[int | None, typer.Option(
-                min=0, help="Of the Monte Carlo; default: as the scenario states.")] = None,
+                metavar="N", min=0, help="Seed of the Monte Carlo; default: as the scenario states.")] = None,
             gains: Annotated[bool, typer.Option(
                 help="Also what is proved of the paper's gains, and better ones.")] = True,
             resume: Annotated[bool, typer.Option(
@@ -60,14 +63,14 @@ def command(paper: PaperOrFile,
 
 def _print_study_report(made: StudyReport) -> None:
     if made.claims:
-        out_console.print(*verdict_lines(made.claims), sep="\n")
+        out_console.print(*verdict_lines(made.claims), *fate_lines(made.claims), sep="\n")
     print_study(made.result)
     _print_end(made.timings, made.page)
 
 
 def _print_report(made: Report) -> None:
     if made.claims:
-        out_console.print(*verdict_lines(made.claims), sep="\n")
+        out_console.print(*verdict_lines(made.claims), *fate_lines(made.claims), sep="\n")
     rows = [m.row() for m in made.comparison.metrics]
     out_console.print(metrics_table(rows, f"{made.comparison.scenario.name}: as stated"))
     print_failures(rows)

@@ -13,7 +13,7 @@ from workbench.errors import InputError
 
 def command(what: Annotated[str | None, typer.Argument(
                 metavar="FORMAT", help="A format's name, or a paper's folder for the file of its own study; default: "
-                                       "the names of all formats")] = None,
+                                       "the names of all formats.")] = None,
             out: Annotated[Path | None, typer.Option(
                 metavar="FOLDER", help="Write FORMAT.json of every format, or of this one, into a folder.")] = None,
             ) -> None:

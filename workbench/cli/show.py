@@ -13,7 +13,7 @@ from workbench.cli.terminal import claim_card, progress
 
 
 def command(claim: Annotated[str, typer.Argument(metavar="ID", help="PAPER:EQUATION, as in doe2026:44, or "
-                                                                    "FOLDER::EQUATION")],
+                                                                    "FOLDER::EQUATION.")],
             json: JsonFile = None) -> None:
     """One claim with all that is known of it; patterns work too, as in 'doe2026:theorem*'."""
     from workbench.files.json_output import write_json

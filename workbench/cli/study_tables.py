@@ -20,13 +20,12 @@ Lines = Sequence[Sequence[str]]
 BESIDE, AROUND = 3, 2  # characters of room between two columns, and at the sides of a table
 
 
-def print_study(result: StudyResult, letters: bool = False) -> None:
-    """Tables and findings of a study; on standard error a line for every run that failed. letters: whether cells hold
-    letters of formulas, such as k_2, and no names."""
+def print_study(result: StudyResult) -> None:
+    """Tables and findings of a study; on standard error a line for every run that failed."""
     from workbench.report.plain_formulas import plain_words
 
     for table in result.tables:
-        out_console.print(result_table(table, plain_words if letters else str))
+        out_console.print(result_table(table, plain_words if table.letters else str))
     for finding in result.findings:
         out_console.print(f"• {plain_words(finding)}", highlight=False)
     for run, why in result.failures:

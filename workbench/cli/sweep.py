@@ -13,24 +13,28 @@ from workbench.cli.options import Dask, PaperOrFile, Workers, load, on_cluster
 from workbench.cli.study_tables import result_table
 from workbench.cli.terminal import progress, summary_table
 from workbench.errors import InputError
+from workbench.files.numbers import counted
 
 if TYPE_CHECKING:
     from workbench.paper.loading import Loaded
 
 
 def command(paper: PaperOrFile,
-            out: Annotated[Path, typer.Option(help="Folder for sweep.csv, and the rows as Parquet")],
+            out: Annotated[Path, typer.Option(metavar="FOLDER", help="Where sweep.csv and the rows as Parquet go.")],
             runs: Annotated[int | None, typer.Option(
-                min=1, max=10**9, help="Runs per controller; default: 100, of a plant's study as it states.")] = None,
-            seed: Annotated[int | None, typer.Option(min=0, help="Default: as the scenario states.")] = None,
-            controller: Annotated[list[str] | None, typer.Option(help="Only this one; may be repeated.")] = None,
+                metavar="N", min=1, max=10**9, help="Runs a controller; default: 100, or as a plant's study states."
+                )] = None,
+            seed: Annotated[int | None, typer.Option(
+                metavar="N", min=0, help="Seed of the draws; default: as the scenario states.")] = None,
+            controller: Annotated[list[str] | None, typer.Option(
+                metavar="NAME", help="Only this one; may be repeated.")] = None,
             sensitivity: Annotated[bool, typer.Option(
                 "--sensitivity", help="Instead: all values of the joint_sensitivity table at once, and which decides.")
             ] = False,
-            resume: Annotated[bool, typer.Option(help="Go on after an interruption.")] = False,
+            resume: Annotated[bool, typer.Option("--resume", help="Go on with the rows kept in --out.")] = False,
             draws: Annotated[Literal["random", "sobol"], typer.Option(
-                help="By chance, or spread evenly by a scrambled Sobol' sequence (best with a power of two of runs)."
-            )] = "random",
+                help="How trains are drawn: by chance, or spread evenly by a scrambled Sobol' sequence (best with a "
+                     "power of two of runs).")] = "random",
             until_width: Annotated[str | None, typer.Option(
                 metavar="METRIC=WIDTH", help="End before --runs once the 95 % interval of every controller's mean of "
                 "this column is so narrow.")] = None,
@@ -80,8 +84,8 @@ def command(paper: PaperOrFile,
     summaries = found.write_csv(out / CSV_NAME)
     out_console.print(summary_table(summaries, found.runs))
     for name, mean in found.means.items():
-        out_console.print(f"{name}: mean of {until_width} after {found.runs} runs: {mean.mean:g}, an interval of "
-                          f"{mean.width:g}", markup=False, highlight=False)
+        out_console.print(f"{name}: mean of {until_width} after {counted(found.runs, 'run')}: {mean.mean:g}, "
+                          f"an interval of {mean.width:g}", markup=False, highlight=False)
     out_console.print(f"rows: {out / CSV_NAME}", markup=False, highlight=False)
     end_where_all_failed(map(vars, found.rows()))
 

@@ -17,8 +17,9 @@ from rich.table import Table
 from rich.text import Text
 
 from workbench.cli.console import err_console
+from workbench.files.numbers import counted
 from workbench.files.units import KWH_J
-from workbench.proof.verdict import VERDICTS, verdict_words
+from workbench.proof.verdict import verdict_words
 
 if TYPE_CHECKING:
     from workbench.paper.contents import Contents
@@ -180,26 +181,9 @@ def _fate(row: Mapping[str, Any]) -> str | None:
     return f"{row['fate']}: {show(worded(row['fate_why']), plain_formula)}" if row["fate"] else None
 
 
-def verdict_lines(document: dict[str, Any]) -> list[Text]:
-    """How many lines of the papers have which verdict, how many questions of ours, and the fate of each headline."""
-    found: list[Text] = []
-    for which, what in (("paper", "{} line{} of the paper{}"), ("ours", "{} question{} of ours")):
-        counts, under = document["totals"][which], document["proved_under"][which]
-        every = sum(counts.values())
-        papers = len({c["paper"] for c in document["claims"]})
-        if every:
-            by_verdict = Text(", ").join(Text(count_words(v, counts[v], under), COLOURS[v]) for v in VERDICTS
-                                         if counts[v])
-            found.append(Text.assemble(what.format(every, "" if every == 1 else "s", "" if papers == 1 else "s"), ": ",
-                                       by_verdict))
-    found += [Text(f"{c['id']} {_fate(c)}") for c in document["claims"] if c["fate"]]
-    return found
-
-
-def count_words(verdict: str, count: int, under: int) -> str:
-    """How many claims have a verdict, and of the proved ones how many only under claims that are not shown."""
-    only = f" ({under} under lines that are not shown)" if under and verdict == "proved" else ""
-    return f"{count} {verdict}{only}"
+def fate_lines(document: Mapping[str, Any]) -> list[Text]:
+    """What becomes of each headline statement."""
+    return [Text(f"{claim['id']} {_fate(claim)}") for claim in document["claims"] if claim["fate"]]
 
 
 ERRORS = "Errors are measured minus desired, [least, largest] of"
@@ -222,7 +206,7 @@ def metrics_table(rows: Sequence[dict[str, Any]], title: str) -> Table:
 
 def summary_table(summaries: Sequence[Any], runs: int) -> Table:
     """The controllers of a Monte Carlo beside each other."""
-    table = Table(title=f"Monte Carlo, {runs} runs", title_justify="left", box=SIMPLE_HEAD, pad_edge=False,
+    table = Table(title=f"Monte Carlo, {counted(runs, 'run')}", title_justify="left", box=SIMPLE_HEAD, pad_edge=False,
                   caption_justify="left", caption=f"{ERRORS} all runs.")
     _columns(table, "position\nerror (mm)", "speed error\n(mm/s)", "mean |stop|\n(mm)", "failed\nruns")
     for s in summaries:
@@ -262,8 +246,8 @@ def papers_table(papers: Sequence[Contents]) -> Table:
     table.add_column("paper", no_wrap=True, style="bold")
     table.add_column("what it has", overflow="fold")
     for paper in papers:
-        has = [", ".join(paper.parts) or "nothing yet", f"{paper.certificates or 'no'} certificates",
-               _from_here(paper.folder)]
+        certificates = counted(paper.certificates, "certificate") if paper.certificates else "no certificates"
+        has = [", ".join(paper.parts) or "nothing yet", certificates, _from_here(paper.folder)]
         table.add_row(paper.name, Group(*filter(None, [paper.title]), Text("; ".join(has), "dim", overflow="fold")))
     return table
 

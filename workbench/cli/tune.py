@@ -13,10 +13,11 @@ from workbench.cli.terminal import progress
 
 
 def command(paper: PaperOrFile,
-            controller: Annotated[list[str] | None, typer.Option(help="Only this one; may be repeated.")] = None,
+            controller: Annotated[list[str] | None, typer.Option(
+                metavar="NAME", help="Only this one; may be repeated.")] = None,
             write: Annotated[bool, typer.Option("--write", help="Put what was found into the file.")] = False,
             runs: Annotated[int | None, typer.Option(
-                min=1, max=10**7, help="Runs of each search; default: as the file states.")] = None,
+                metavar="N", min=1, max=10**7, help="Runs of each search; default: as the file states.")] = None,
             out: Annotated[Path | None, typer.Option(
                 metavar="FOLDER", help="Where finished restarts of the search are kept.")] = None,
             resume: Annotated[bool, typer.Option("--resume", help="Go on with the restarts kept in --out.")] = False,

@@ -9,7 +9,7 @@ from workbench.contest.entrants import learns
 from workbench.contest.sampling import period_of
 from workbench.contest.tables import winners_table
 from workbench.contest.told import COLUMNS, Told
-from workbench.files.numbers import number
+from workbench.files.numbers import counted, number
 from workbench.paper.results import ResultTable
 from workbench.proof.wording import listed
 
@@ -61,7 +61,7 @@ def period_findings(told: Told) -> Iterator[str]:
                 own, others[0], condition)
         learners = sum(learns(own.scenario, own.entries[i].controller) for i in means)
         words = f", {learners} of them judged on the last of several trips" if learners else ""
-        where = f"{own.contest.conditions[condition].title}, {own.runs(condition)} draws"
+        where = f"{own.contest.conditions[condition].title}, {counted(own.runs(condition), 'draw')}"
         metric = COLUMNS[TRACKING].title
         has = "has" if len(said) == 1 else "have"
         yield (f"With a command every {1e3 * period:g} ms, {listed(said)} {has} the least {metric}; {behind} "

@@ -11,6 +11,7 @@ import numpy as np
 from workbench.contest.matches import Entry, world_of
 from workbench.contest.record import Condition
 from workbench.contest.told import Told
+from workbench.files.numbers import counted
 from workbench.mpc.controller import MpcController
 from workbench.mpc.disturbance import Unknown, largest_bound, needed_bound
 from workbench.mpc.tube import Tube, TubeMpc
@@ -123,7 +124,8 @@ def premises_findings(told: Told, found: Sequence[Word]) -> Iterator[str]:
         own = [word for word in found if word.entry == name]
         sure = [told.contest.conditions[word.condition].title for word in own if not word.why]
         band = told.scenario.simulation.position_band_m
-        words = (f"certain in all {len(own)} conditions" if len(sure) == len(own) else
-                 f"certain in {', '.join(sure)} alone of {len(own)} conditions" if sure else
-                 f"certain in none of {len(own)} conditions: its premises, or its bound, do not hold")
+        every = "the only condition" if len(own) == 1 else f"all {len(own)} conditions"
+        words = (f"certain in {every}" if len(sure) == len(own) else
+                 f"certain in {', '.join(sure)} alone of {counted(len(own), 'condition')}" if sure else
+                 f"certain in none of {counted(len(own), 'condition')}: its premises, or its bound, do not hold")
         yield f"{name}: |position error| below {band:g} m is {words}."

@@ -28,7 +28,7 @@ from workbench.contest.told import COLUMNS, Told
 from workbench.contest.tune import tune_all
 from workbench.contest.tuning_table import convergence_plot, tuning_findings, tuning_table
 from workbench.errors import InputError
-from workbench.files.numbers import number
+from workbench.files.numbers import counted, number
 from workbench.files.units import KWH_J
 from workbench.paper.parameter_search import Finished, Name, Tuned
 from workbench.paper.results import Curve, Plot, StudyResult
@@ -224,7 +224,8 @@ def _findings(told: Told) -> Iterator[str]:
             alone = Counter(found[0] for found in best if len(found) == 1)
             if alone:
                 said.append(when + ", ".join(f"{name} in {n}" for name, n in alone.most_common()))
-        yield (f"{COLUMNS[metric].heading}, alone best of {count} conditions: {'; '.join(said)}." if said else
+        of_all = counted(count, "condition")
+        yield (f"{COLUMNS[metric].heading}, alone best of {of_all}: {'; '.join(said)}." if said else
                f"{COLUMNS[metric].heading}: no controller is alone best in any condition.")
     for name, stated in told.contest.conditions.items():
         failed = Counter(match.entry for match in told.matches if match.condition == name and match.failed)

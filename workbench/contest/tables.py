@@ -13,7 +13,7 @@ from workbench.contest.matches import Entry
 from workbench.contest.record import FEWEST_DRAWS
 from workbench.contest.sampling import commands_every, with_periods
 from workbench.contest.told import ALIKE, ARRIVED_M, COLUMNS, LATE_S, Told, label
-from workbench.files.numbers import number
+from workbench.files.numbers import counted, number
 from workbench.paper.cells import Cell, Column, Phrase, Quantity
 from workbench.paper.comparison import STEP
 from workbench.paper.results import ResultTable
@@ -48,7 +48,7 @@ def condition_table(told: Told, condition: str) -> ResultTable:
     jumps = (" Without an actuator a command is a jump of the force, whose jerk is that of one plant step of "
              f"{step_ms:g} ms." if stated.acting(told.scenario) is None else "")
     return ResultTable(
-        stated.title, f"{runs} run{'s' if runs > 1 else ''} each, the same draws for all",
+        stated.title, f"{counted(runs, 'run')} each, the same draws for all",
         ("controller", *(COLUMNS[metric] for metric in told.metrics), "failed"), tuple(rows),
         f"Means, in brackets their {100 * told.contest.confidence:g} % bootstrap interval (BCa). ● the best, and every "
         "one whose paired difference from it may be chance, by Holm's correction over all metrics and conditions; = "

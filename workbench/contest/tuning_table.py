@@ -9,7 +9,7 @@ import numpy as np
 from workbench.contest.entrants import follows_curve
 from workbench.contest.sampling import with_periods
 from workbench.contest.told import COLUMNS, Told
-from workbench.files.numbers import number
+from workbench.files.numbers import counted, number
 from workbench.model.tuning import SearchResult
 from workbench.paper.cells import Cell, Phrase
 from workbench.paper.parameter_search import binding
@@ -110,7 +110,7 @@ def tuning_findings(told: Told) -> Iterator[str]:
                          else ("energy_J", "energy {} kWh → {} kWh"))
         before, after = (told.values(condition, metric)[names.index(name)] for name in (entry.controller, entry.name))
         result = contest.result_for(entry.controller, condition)
-        spent = f" ({result.evaluations} evaluations)" if result else ""
+        spent = f" ({counted(result.evaluations, 'evaluation')})" if result else ""
         if before is not None and after is not None:
             change = words.format(*(number(float(value.mean()) / COLUMNS[metric].si) for value in (before, after)))
             yield f"Tuning of {entry.controller}{spent}: {change} under {contest.conditions[condition].title}."

@@ -29,6 +29,11 @@ def number(value: float | None, digits: int = 3) -> str:
     return grouped(f"{rounded:.{max(0, digits - 1 - exponent)}f}")
 
 
+def counted(count: int, what: str) -> str:
+    """A number of things that are named by one word: 1 run, 16 runs."""
+    return f"{count} {what}{'' if count == 1 else 's'}"
+
+
 def exact(value: float) -> str:
     """A number that somebody wrote down, with the digits it has."""
     if not math.isfinite(value):

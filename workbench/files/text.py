@@ -127,7 +127,7 @@ def _contents(path: Path, kind: str, where: str) -> bytes:
     try:
         return contents(path, limit)
     except FileNotFoundError:
-        raise InputError(path, "", f"no such file: {where}{_meant(path)}") from None
+        raise InputError(path, "", f"no such file: {where}{nearly_called(path)}") from None
     except IsADirectoryError:
         raise InputError(path, "", f"is a folder: name a .{kind.lower()} file in it{named}") from None
     except NotRegularError:
@@ -145,7 +145,7 @@ def _contents(path: Path, kind: str, where: str) -> bytes:
 MOST_LISTED = 5_000  # names in a folder beyond which none is looked for
 
 
-def _meant(path: str | Path) -> str:
+def nearly_called(path: str | Path) -> str:
     """What is called nearly so in the same folder, as a question; empty where nothing is."""
     asked = Path(path)
     try:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from workbench.compile.kernel import law_source
 from workbench.errors import InputError
+from workbench.files.known_names import one_of
 from workbench.model.law import ControlLaw
 from workbench.paper.loading import Loaded
 from workbench.paper.plants.problem import LocatedPlantStudy
@@ -98,8 +99,7 @@ def _of_train(scenario: Scenario, name: str) -> LawUnit:
 
 def _of_plant(study: LocatedPlantStudy, name: str) -> LawUnit:
     if name not in study.controllers:
-        raise InputError("", "controllers", f"there is no '{name}': choose one of "
-                         f"{', '.join(study.controllers)}")
+        raise InputError("", "controllers", f"there is no '{name}': {one_of(name, study.controllers)}")
     made, plant = study.entrant(name), study.setting.plant
     if made.law is None:
         raise _no_law(name)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.errors import InputError
+from workbench.files.numbers import counted
 from workbench.optimal.course import Array, Course
 from workbench.optimal.envelope import InfeasibleRunError
 from workbench.optimal.force_reserve import ForceSamples, Reserve, force_samples, more_reserves, with_reserves
@@ -201,9 +202,10 @@ def _averaged(request: _Request, reserves: tuple[Reserve, ...]) -> tuple[SmoothR
         return smoothed(optimal.profile, window_s, waits(optimal.timetable, optimal.clock_s)), optimal
     spare = asked - window_s - len(course.stops_m) * request.wait_s
     if spare <= 0:
-        waiting = f" and {len(course.stops_m)} stops of {request.wait_s:g} s" if course.stops_m else ""
-        raise InfeasibleRunError(f"smoothing over {window_s:.4g} s{waiting} leave nothing of {asked:g} s to run: allow "
-                                 "more time")
+        waiting = f" and {counted(len(course.stops_m), 'stop')} of {request.wait_s:g} s" if course.stops_m else ""
+        leave = "leave" if waiting else "leaves"
+        raise InfeasibleRunError(f"smoothing over {window_s:.4g} s{waiting} {leave} nothing of {asked:g} s to run: "
+                                 "allow more time")
     try:
         optimal = find_reference(vehicle, lowered, spare, *ends, request.intervals, request.solver, like=request.like)
     except InfeasibleRunError as trouble:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from workbench.errors import InputError
+from workbench.files.numbers import counted
 from workbench.mpc.controller import KINDS
 from workbench.paper.dotted import value_at, with_value_at
 from workbench.paper.mpc_comparison import MPC_KINDS
@@ -94,7 +95,8 @@ def tuning_words(tuning: StudyTuning) -> str:
     units = {"position_rms": "position", "speed_rms": "speed", "logged_jerk_rms": "logged jerk"}
     parts = " + ".join(f"{units[name]} RMS/{unit:g}" for name, unit in tuning.objective.units.items())
     shorter = " The tuning's runs are shorter than these, see the file." if tuning.set else ""
-    return (f"Tuned: by 'workbench tune', {tuning.runs} runs with one optimiser and seed for each controller, to the "
+    runs = counted(tuning.runs, "run")
+    return (f"Tuned: by 'workbench tune', {runs} with one optimiser and seed for each controller, to the "
             f"least {parts}; the paper's parameters stay as their own rows.{shorter}")
 
 

@@ -116,8 +116,8 @@ def best_words(rows: Sequence[tuple[str, Mapping[str, Any]]], metric: str, what:
 
 
 def counter_name(key: str) -> str:
-    """What a controller counts, by its key: `lqr_fallbacks` is LQR fallbacks."""
-    return key.replace("_", " ").replace("qp", "QP").replace("lqr", "LQR")
+    """What a controller counts, by its key: `qp_failed` is quadratic programs failed."""
+    return key.replace("_", " ").replace("qp", "quadratic programs").replace("lqr", "LQR")
 
 
 def counters_words(counters: Sequence[Mapping[str, int]]) -> str:
@@ -126,4 +126,5 @@ def counters_words(counters: Sequence[Mapping[str, int]]) -> str:
     for of_run in counters:
         for key, count in of_run.items():
             total[key] = total.get(key, 0) + count
-    return ", ".join(f"{counter_name(key)} {count}" for key, count in sorted(total.items()) if count) or "nothing"
+    told = (f"{counter_name(key)} {number(count)}" for key, count in sorted(total.items()) if count)
+    return ", ".join(told) or "nothing"

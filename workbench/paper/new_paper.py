@@ -36,7 +36,7 @@ def write_new_paper(name: str, directory: Path, about: str = "train") -> Path:
     template = TEMPLATES[about]
     texts = {place: contents(template / place).decode() for place in template_files(template)}
     write_tree(folder, {place: Template(text).substitute(name=name).encode() for place, text in texts.items()},
-               "name another --directory")
+               "name another --out")
     return folder
 
 

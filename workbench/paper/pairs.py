@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from workbench.files.numbers import counted
 from workbench.paper.cells import Cell, Column, Phrase
 from workbench.paper.drivers import Drivers, entries
 from workbench.paper.mpc_comparison import FOLLOWS_MPS, JERK
@@ -207,10 +208,11 @@ def pair_table(study: Any, drivers: Drivers, pairs: Sequence[Pair]) -> Iterator[
         "Law less MPC on the same drawn trains", "comparison",
         ("run", "law", "MPC", "parameters", *(Column(*METRIC_NAMES[metric]) for metric in metrics),
          *(("trial from which on the law is ahead",) if learns else ())), tuple(rows),
-        f"Means over {stated.draws} trains whose mass and resistance lie within ±{100 * stated.spread:g} % of what "
-        f"MPC knows, their difference with the {100 * stated.confidence:g} % interval of a paired bootstrap (BCa), and "
-        "who has less. A difference that may be chance, by Holm's correction over metrics and runs, is no win. A "
-        "controller with runs that fail loses to one without, and the numbers are of the trains on which both arrive; "
+        f"Means over {counted(stated.draws, 'train')} whose mass and resistance lie within ±{100 * stated.spread:g} % "
+        "of what MPC knows, their difference with the "
+        f"{100 * stated.confidence:g} % interval of a paired bootstrap (BCa), and who has less. A difference that may "
+        "be chance, by Holm's correction over metrics and runs, is no win. A controller with runs that fail loses to "
+        "one without, and the numbers are of the trains on which both arrive; "
         f"who errs by more than {FOLLOWS_MPS:g} m/s in speed RMS does not follow and wins nothing in jerk.")
 
 

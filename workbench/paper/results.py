@@ -84,7 +84,8 @@ class ResultTable:
     """A table of results; printed and obtained values stand side by side in it.
 
     header: a Column each, plain text for one of words or of cells that bring their own unit; rows: numbers in SI,
-    words, or both together. Raises ValueError for a row that does not fit and a number that is not finite.
+    words, or both together; letters: whether its cells hold letters of formulas, such as k_2, and no names. Raises
+    ValueError for a row that does not fit and a number that is not finite.
     """
 
     title: str
@@ -92,6 +93,7 @@ class ResultTable:
     header: tuple[Column | str, ...]
     rows: tuple[tuple[Cell, ...], ...]
     note: str = ""
+    letters: bool = False
 
     def __post_init__(self) -> None:
         for row in self.rows:

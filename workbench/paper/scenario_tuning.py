@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from workbench.errors import InputError
+from workbench.files.known_names import one_of
 from workbench.model.tuning import at_the_rail
 from workbench.paper.parameter_search import NONE_YET, Finished, Name, Restart, Tuned, score, search, search_all
 from workbench.simulate.closed_loop import simulate
@@ -21,8 +22,8 @@ def tune_scenario(scenario: Scenario, names: list[str], workers: int, on_progres
     budget = _budget(scenario)
     for name in names:
         if name not in scenario.controllers:
-            raise InputError("", f"tuning.ranges.{name}", "is no controller of this scenario: choose one of "
-                             f"{', '.join(scenario.controllers)}")
+            raise InputError("", f"tuning.ranges.{name}", "is no controller of this scenario: "
+                             f"{one_of(name, scenario.controllers)}")
         for key in budget.ranges[name].keys() - tunable(scenario, name).keys():
             raise InputError("", f"tuning.ranges.{name}.{key}", "is no parameter that this controller states: remove "
                              "it")

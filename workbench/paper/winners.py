@@ -71,7 +71,7 @@ def winners_table(study: Any, drivers: Drivers, pairs: Sequence[Pair], results: 
         "Who wins, and at what price", "comparison", header[:kept], tuple(row[:kept] for row in rows),
         f"By the mean {name} over {draws} drawn trains, the least wins; not alone where another is not told apart from "
         "it by more than chance. Two laws, and two kinds of MPC, are ordered by their means without a test. Time of a "
-        "control step and energy at the wheel are the winner's.") if rows else None
+        "control step and energy at the wheel are the winner's.", letters=True) if rows else None
 
 
 def _entrant(name: str, rows: Sequence[Mapping[str, Any]], metric: str) -> _Entrant:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -21,7 +22,8 @@ Part = tuple[str, Any]
 def check_all(folder: Path, papers: Mapping[Path, Path], workers: int,
               on_progress: Callable[[int, int], None] = lambda done, total: None) -> tuple[list[Row], int]:
     """The rows of `check_folder`, those of `check_claims` for each folder of certificates and its paper, and how many
-    certificates are of their claims. Raises InputError where a paper cannot be imported."""
+    certificates are of their claims; on_progress(done, total) counts certificates. Raises InputError where a paper
+    cannot be imported."""
     claims = {place: (place, path) for place, path in papers.items()}
     found: dict[Part, Any] = {}
 
@@ -35,8 +37,17 @@ def check_all(folder: Path, papers: Mapping[Path, Path], workers: int,
         several = workers > 1 and len(files) >= WORTH_PROCESSES
         if several and named() is None:
             start_method(BINDING)
-        found.update(results_of(_part, {"files": groups, "claims": claims}, tasks, workers if several else 1,
-                                lambda done, *_: on_progress(done, len(tasks))))
+        left, done = Counter(place for _, place in tasks), 0
+
+        def told(_: int, part: Part, __: Any) -> None:
+            """A folder's certificates are done once they are held against their claims, too."""
+            nonlocal done
+            left[part[1]] -= 1
+            if not left[part[1]] and part[1] in groups:
+                done += len(groups[part[1]])
+                on_progress(done, len(files))
+
+        found.update(results_of(_part, {"files": groups, "claims": claims}, tasks, workers if several else 1, told))
         by_path = {row[0]: row for place in groups for row in found["files", place]}
         return [by_path[path] for path, _ in files]
 

@@ -42,7 +42,7 @@ def read_record(path: Path) -> dict[str, str]:
     rows = [line.partition(" ") for line in lines]
     if not first.startswith(FIRST) or not all(DIGEST.fullmatch(digest) and is_equation(name)
                                               for digest, _, name in rows):
-        raise InputError(place, "", "is no record of what Coq has accepted: run 'workbench check-coq DIR --record "
+        raise InputError(place, "", "is no record of what Coq has accepted: run 'workbench check-coq FOLDER --record "
                          f"{path}' again, or remove it")
     return {name: digest for digest, _, name in rows}
 

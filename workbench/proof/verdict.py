@@ -26,6 +26,11 @@ VERDICTS: tuple[Verdict, ...] = ("proved", "refuted", "violated", "gap", "assume
 FAILED: tuple[Verdict, ...] = ("refuted", "violated", "gap")
 
 
+def in_number(verdict: str, count: int) -> str:
+    """A verdict behind the number of claims that have it: 1 gap, 7 gaps, 67 proved."""
+    return "gaps" if verdict == "gap" and count != 1 else verdict
+
+
 def verdict_words(verdict: str, proved_under: Sequence[str]) -> str:
     """A verdict as it is shown; what is proved from claims that are not shown themselves names them, by their ids."""
     names = "), (".join(name.partition(":")[2] for name in proved_under)

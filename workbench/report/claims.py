@@ -116,6 +116,11 @@ def by_section(claims: Sequence[ClaimView]) -> list[tuple[str, list[ClaimView]]]
         int(part) for part in group[0].split(".")] if numbered and group[0] else []))
 
 
+def charged(claims: Sequence[ClaimView]) -> list[ClaimView]:
+    """The claims without those that fail only as extracted: no paper is charged with these."""
+    return [claim for claim in claims if not claim.otherwise]
+
+
 def counts(claims: Sequence[ClaimView]) -> dict[str, int]:
     """How many claims have each verdict, the known verdicts first and all of them named."""
     found = dict.fromkeys(VERDICTS, 0)

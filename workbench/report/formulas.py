@@ -37,7 +37,9 @@ LIMITS = frozenset(("lim", "max", "min", "sup", "inf", "lim sup", "lim inf", "�
 _SENTENCE = re.compile(r"[A-Za-z]{2,} [a-z]+ [a-z]+ ")
 _PHRASE = re.compile(r"(?<![\\\w])(?:[A-Za-z]{2,}[ -]){3,}[A-Za-z]{2,}")
 # The last formula before a mark of punctuation, and the mark.
-_BEFORE_MARK = re.compile(r"(<math\b(?:(?!<math\b).)*</math>[.,;:)]+)", re.DOTALL)
+_BEFORE_MARK = re.compile(r"(<math\b(?:(?!<math\b).)*</math>[.,;:)”]+)", re.DOTALL)
+# Two primes behind an index, which the converter raises above each other.
+_TWICE_DERIVED = re.compile(r"(_(?:\{[^{}]*\}|\w))''(?!')")
 UNDER = {"msub": "munder", "msup": "mover", "msubsup": "munderover"}
 
 
@@ -100,6 +102,7 @@ def _words_apart(latex: str) -> str:
         return "".join((f"{{}}{piece}" if piece[0] in "^_" else piece) if i % 2 else rf"\text{{{piece}}}"
                        for i, piece in enumerate(pieces) if piece)
 
+    latex = _TWICE_DERIVED.sub(r"\1^{″}", latex)
     apart = re.sub(r"\\text\{((?:[^{}$]|\$[^$]*\$)*)\}", parts, latex)
     return apart.replace(r"\left\{", r"\{").replace(r"\right\}", r"\}").replace(r"\arg \min", r"\mathrm{arg}\min")
 
@@ -179,6 +182,9 @@ def _clean(element: ElementTree.Element) -> None:
     element.text = html.unescape(element.text or "")
     if "\\" in element.text:
         raise ValueError(f"unknown command {element.text}")
+    if element.tag == "mo" and element.text == "|" and "fence" not in element.attrib:
+        element.set("lspace", "0")  # bars stand close to what is between them
+        element.set("rspace", "0")
     if element.tag == "mi" and element.text in OPERATORS:
         element.tag = "mo"  # an operator gets space around it
     if element.tag in UNDER and len(element) and html.unescape(element[0].text or "") in LIMITS:

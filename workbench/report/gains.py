@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -31,7 +32,7 @@ def gains_result(report: GainReport, effects: Sequence[Effect], fronts: Sequence
     tables += [table for front in fronts for table in (_front(front), _front_gains(front))]
     return StudyResult(
         rows=tuple({"controller": e.gains, "setting": e.setting, **e.numbers, "failed": e.failed} for e in effects),
-        tables=tuple(tables), plots=(),
+        tables=tuple(replace(table, letters=True) for table in tables), plots=(),
         findings=(*compared(effects), *map(front_sentence, fronts), *map(with_powers, report.notes)),
         failures=tuple((f"{e.gains}, {e.setting}", e.failed) for e in effects if e.failed))
 

@@ -8,16 +8,16 @@ from itertools import combinations, pairwise
 import numpy as np
 from markupsafe import Markup
 
-from workbench.files.numbers import length, number
+from workbench.files.numbers import counted, length, number
 from workbench.paper.statistics import Bootstrap, holm, p_values
-from workbench.report.claims import VERDICTS, ClaimView, counts
+from workbench.proof.verdict import in_number
+from workbench.report.claims import VERDICTS, ClaimView, charged, counts
 from workbench.report.sources import SourcedValue
 from workbench.report.tables import largest_error
 from workbench.simulate.metrics import Metrics
 from workbench.simulate.sweep_rows import SweepRow, SweepSummary
 from workbench.trains.scenario import Scenario, Variant
 
-PLURAL = {"gap": "gaps"}
 NOTABLE = 1.1
 # How a printed ranking is held against the runs.
 RANKED = Bootstrap(2000, 1, 0.95)
@@ -29,24 +29,25 @@ def proof_line(claims: Sequence[ClaimView]) -> Markup | None:
         return None
     paper = [claim for claim in claims if not claim.ours]
     line = Markup("<strong>Proof.</strong>")
-    line += f" {len(paper)} line{'s' * (len(paper) != 1)} of the paper: {_verdicts(paper)}."
+    line += f" {counted(len(paper), 'line')} of the paper: {_verdicts(charged(paper))}."
     if readings := sum(claim.otherwise for claim in paper):
-        line += Markup(" {} of those that fail hold{} in another reading of the text.").format(
-            readings, "s" if readings == 1 else "")
+        line += (" One more fails only as extracted and holds in another reading." if readings == 1 else
+                 f" {readings} more fail only as extracted and hold in another reading.")
     tainted = sum(claim.verdict == "proved" and bool(claim.tainted_by) for claim in paper)
     if tainted:
-        line += Markup(" {} of the proved rest on a line that fails.").format(tainted)
+        line += Markup(" {} of the proved rest{} on a line that fails.").format(tainted, "s" * (tainted == 1))
     under = sum(bool(claim.proved_under) for claim in paper)
     if under:
-        line += Markup(" {} of the proved hold only under lines that are not shown.").format(under)
+        line += Markup(" {} of the proved hold{} only under lines that are not shown.").format(
+            under, "s" * (under == 1))
     own = [claim for claim in claims if claim.ours]
     if own:
-        line += f" {len(own)} question{'s' * (len(own) > 1)} of ours: {_verdicts(own)}."
+        line += f" {counted(len(own), 'question')} of ours: {_verdicts(own)}."
     return line
 
 
 def _verdicts(claims: Sequence[ClaimView]) -> str:
-    return ", ".join(f"{n} {PLURAL.get(verdict, verdict) if n > 1 else verdict}"
+    return ", ".join(f"{n} {in_number(verdict, n)}"
                      for verdict, n in sorted(counts(claims).items(), key=lambda item: _rank(item[0])) if n)
 
 
@@ -84,9 +85,10 @@ def table_line(scenario: Scenario, summaries: Sequence[SweepSummary], names: dic
     ratios = [found[name] / printed[name] for name in printed]
     ranking = " &lt; ".join("{}" for _ in by_runs)
     verdict = _ranking(by_paper, rows, names)
-    line = Markup("<strong>{}.</strong> Over {} runs a controller the printed ranking by largest "
+    line = Markup("<strong>{}.</strong> Over {} a controller the printed ranking by largest "
                   f"|position error| {{}}: {ranking}; the obtained errors are ").format(
-        scenario.printed_table.source.removeprefix("paper, "), runs, verdict, *(names[name] for name in by_runs))
+        scenario.printed_table.source.removeprefix("paper, "), counted(runs, "run"), verdict,
+        *(names[name] for name in by_runs))
     return line + f"{number(min(ratios), 2)} to {number(max(ratios), 2)} times the printed ones."
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from workbench.errors import InputError
 from workbench.files.json_output import write_json
+from workbench.files.numbers import counted
 from workbench.files.units import KWH_J
 from workbench.optimal.bound_document import write_certificate
 from workbench.optimal.certified_export import COLUMNS as CERTIFIED_COLUMNS
@@ -155,7 +156,7 @@ def _smooth(asked: Request, vehicle: Vehicle, run: Course, within: Timetable | f
 
 
 def _with_stops(stops: tuple[float, ...], dwell_s: float) -> str:
-    return f" with {len(stops)} stops of {dwell_s:g} s" if stops else ""
+    return f" with {counted(len(stops), 'stop')} of {dwell_s:g} s" if stops else ""
 
 
 def _summary(asked: Request, line: Line, vehicle: Vehicle, found: Reference,

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from pydantic import BaseModel
 
-from workbench.files.numbers import NOTHING, exact
+from workbench.files.numbers import NOTHING, counted, exact
 from workbench.files.toml import FileRecord, SourcedRecord
 
 _UNIT = re.compile(r"(?<=m/s)\^([23])(?!\d)")
@@ -67,7 +67,7 @@ def stated(value: object) -> str:
                    for name, entry in value.items()]
         text = ", ".join(entries)
     elif isinstance(value, tuple | list) and value and isinstance(value[0], BaseModel):
-        text = f"{len(value)} sections"
+        text = counted(len(value), "section")
     elif isinstance(value, tuple | list):
         text = ", ".join(stated(entry) for entry in value) or NOTHING
     return text

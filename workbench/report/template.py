@@ -16,12 +16,13 @@ from typing import Any
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
-from workbench.files.numbers import number, typeset
+from workbench.files.numbers import counted, number, typeset
 from workbench.files.regular import contents
 from workbench.paper.mpc_comparison import counter_name
+from workbench.proof.verdict import in_number
 from workbench.report.charts.chart import Chart, chart_json
 from workbench.report.charts.files import CURVES
-from workbench.report.claims import ClaimView, by_section, claim_views, counts, fated, in_words
+from workbench.report.claims import ClaimView, by_section, charged, claim_views, counts, fated, in_words
 from workbench.report.findings_view import fated_findings, finding_groups
 from workbench.report.graph.view import graph_views
 from workbench.report.math_font import math_font
@@ -43,6 +44,11 @@ class PageFigure:
     chart: Markup
     csv: str
 
+    @property
+    def name(self) -> str:
+        """What its caption calls it, for what reads pages aloud."""
+        return plain_words(self.caption.partition(". ")[0].removesuffix("."))
+
 
 def page_figure(anchor: str, svg: str, caption: str, chart: Chart, file: str) -> PageFigure:
     """A figure with its chart, of which `file` is the name of its CSV file."""
@@ -61,11 +67,12 @@ def render(template: str, document: Mapping[str, Any], sources: Sequence[Sourced
     environment = Environment(loader=FileSystemLoader(folder), autoescape=True, undefined=StrictUndefined,
                               trim_blocks=True, lstrip_blocks=True)
     environment.filters |= {"number": number, "stated": stated, "typeset": typeset, "breakable": _breakable,
-                            "in_words": in_words, "as_heading": _as_heading, "counter_name": counter_name,
+                            "in_words": in_words, "in_number": in_number,
+                            "as_heading": _as_heading, "counted": counted, "counter_name": counter_name,
                             "set_command": set_command}
     printed = [claim for claim in claims if not claim.ours] or claims
     return environment.get_template(template).render(
-        claims=claims, counts=counts(printed), findings=finding_groups(document), sections=by_section(claims),
+        claims=claims, counts=counts(charged(printed)), findings=finding_groups(document), sections=by_section(claims),
         fated=fated(claims), fated_findings=fated_findings(document), graphs=graph_views(claims),
         choices=[(name, label, found) for name, label in CHOICES if len(found := _values(claims, name)) > 1],
         sources={kind: [s for s in sources if s.kind == kind] for kind in ("assumed", "paper", "convention")},

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from workbench.files.numbers import NOTHING, length, number
+from workbench.files.numbers import NOTHING, counted, length, number
 from workbench.files.units import KWH_J
 from workbench.proof.wording import listed
 from workbench.report.sources import stated
@@ -67,7 +67,7 @@ def winners(scenario: Scenario, metrics: Sequence[Metrics], variants: Sequence[t
     changed = [found for _, of_it in variants
                if {m.controller for m in of_it} >= everyone and (found := _errors(of_it))]
     if changed:
-        count = f"{len(changed)} changes" if len(changed) > 1 else "1 change"
+        count = counted(len(changed), "change")
         rows.append(Winner(f"{count} of an assumed value{'' if every else ' in this report'}, driven by all",
                            *_said(changed, names)))
     won = {name for found in [nominal, *drawn.values(), *changed] for name in _best(found)}

@@ -4,6 +4,7 @@ medium."""
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Callable
 
 from workbench.proof.latex.commands import GREEK
@@ -17,10 +18,12 @@ _EXPONENTIAL = re.compile(r"(?<![\w$\\{])(exp|e)\^\(([^()$]*)\)")
 _STEM = re.compile(r"([A-Za-z]+?)(?:d?dot|hat|tilde|bar)?\d*")
 _SIGNS = (("==", "="), ("<=", "≤"), (">=", "≥"), ("!=", "≠"), ("->", "→"))
 _POWER = re.compile(r"(?<![\w$\\{])([A-Za-z])\^(\d|[a-z])(?!\w)")
+# A Greek letter that has an index or is one: its name is what letters are made of.
+_GREEK_SIGN = re.compile(r"(?<![A-Za-z])[α-ω](?=_[A-Za-z0-9])|(?<=[A-Za-z0-9]_)[α-ω](?!\w)")
 _SHORT = {"eps": "varepsilon"}
 _WORDS = ("Re", "Im", "ell", "wp", "partial")  # words, before they are letters
 _NAMES = "|".join(sorted((name for name in GREEK if name not in _WORDS), key=len, reverse=True))
-_INDEXED = re.compile(rf"(?<![\w.$\\{{])({_NAMES}|sum|[A-Za-z])_(?:\{{([^{{}}$]+)\}}|\(([^()$]+)\))")
+_INDEXED = re.compile(rf"(?<![\w.$\\{{])({_NAMES}|eps|sum|[A-Za-z])_(?:\{{([^{{}}$]+)\}}|\(([^()$]+)\))")
 # A Greek letter or a single one with its accent in words, such as W-tilde, where no claim's number goes on with it.
 _ACCENTED = re.compile(rf"(?<![\w.$\\{{-])({_NAMES}|eps|[A-Za-z])-(hat|tilde|bar|dot)(?!\w|\.\w)")
 _GREEK = re.compile(rf"(?<![\w.$\\{{])({_NAMES}|eps)(\*|\^\d)?(?!\w|\.\w)")
@@ -37,6 +40,7 @@ _RAISED = re.compile(r"\^(?:\{(-?\w+)\}|\((-?\w+(?:[-+/]\w+)?)\)|(-?\d+|T\b|i\b|
 
 def worded(text: str) -> str:
     """A note or title with its letters, such as z_1 or rho_hat, as formulas between dollar signs."""
+    text = _GREEK_SIGN.sub(lambda found: _name_of_greek(found[0]), text)
     for typed, sign in _SIGNS:
         text = text.replace(typed, sign)
     text = _outside(text, _UNIT, lambda found: rf"$\mathrm{{{found[1]}/{found[2]}^2}}$")
@@ -73,6 +77,11 @@ def _outside(text: str, pattern: re.Pattern[str], formula: Callable[[re.Match[st
     """The text with what the pattern finds in its words as formulas; those that are there stay."""
     pieces = re.split(r"(\$[^$]*\$)", text)
     return "".join(piece if i % 2 else pattern.sub(formula, piece) for i, piece in enumerate(pieces))
+
+
+def _name_of_greek(sign: str) -> str:
+    """lambda of λ, which Unicode spells otherwise."""
+    return unicodedata.name(sign).rpartition(" ")[2].lower().replace("lamda", "lambda")
 
 
 def _greek(name: str) -> str:

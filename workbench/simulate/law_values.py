@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from workbench.compile.literals import require_short
 from workbench.errors import CompileError, InputError
+from workbench.files.known_names import one_of
 from workbench.model.law import ControlLaw
 from workbench.simulate.controllers import SAMPLED, compiled_law, known_laws, nearest_law
 from workbench.trains.scenario import ControllerSpec, NeuronGrid, Scenario
@@ -65,8 +66,7 @@ def check_controllers(scenario: Scenario, where: str | Path = "") -> None:
 def controller_spec(scenario: Scenario, name: str) -> ControllerSpec:
     """The scenario's controller `name`; raises InputError when there is none or its law is unknown."""
     if name not in scenario.controllers:
-        choice = ", ".join(scenario.controllers)
-        raise InputError("", "controllers", f"there is no '{name}': choose one of {choice}")
+        raise InputError("", "controllers", f"there is no '{name}': {one_of(name, scenario.controllers)}")
     spec = scenario.controllers[name]
     key = f"controllers.{name}.law"
     try:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 
 from workbench.errors import InputError
+from workbench.files.known_names import one_of
 
 
 def metric_and_number(option: str, text: str, sign: str, metrics: Sequence[str], write: str) -> tuple[str, float]:
@@ -16,8 +17,8 @@ def metric_and_number(option: str, text: str, sign: str, metrics: Sequence[str],
     metric, stated, number = text.partition(sign)
     metric = metric.strip()
     if metric not in metrics:
-        raise InputError("", option, f"'{metric[:60]}' is no metric of a run: give {write} with one of "
-                         f"{', '.join(metrics)}")
+        raise InputError("", option, f"'{metric[:60]}' is no metric of a run: give {write}, "
+                         f"{one_of(metric, metrics)}")
     if not stated:
         raise InputError("", option, f"'{text[:60]}' says no number behind '{sign}': give {write.rstrip(',')}")
     try:

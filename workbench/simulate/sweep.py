@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from workbench.errors import InputError
+from workbench.files.known_names import one_of
 from workbench.files.writing import write_pieces
 from workbench.model.desired_curve import CruiseSpeed
 from workbench.simulate.closed_loop import check_controllers, prepared, simulate
@@ -192,8 +193,8 @@ def chosen(scenario: Scenario, path: Path, controllers: Sequence[str] | None) ->
     names = list(scenario.controllers) if controllers is None else list(dict.fromkeys(controllers))
     for name in names:
         if name not in scenario.controllers:
-            raise InputError(path, "controllers", f"'{name}' is no controller of this scenario: choose among "
-                                                  f"{', '.join(scenario.controllers)}")
+            raise InputError(path, "controllers", f"'{name}' is no controller of this scenario: "
+                             f"{one_of(name, scenario.controllers)}")
     if not names:
         raise InputError(path, "controllers", "none chosen: name at least one")
     return names

@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import BeforeValidator, Field, Strict, WithJsonSchema, model_validator
 
 from workbench.errors import InputError, WorkbenchError
+from workbench.files.numbers import counted
 from workbench.files.text import CHECK_PATH
 from workbench.files.toml import (
     REPRODUCTION,
@@ -219,7 +220,7 @@ class Scenario(FileRecord):
         started = {name: spec.initial for name, spec in self.controllers.items()}
         changed = {f"controllers.{name}.{'initial' if key in started.get(name, {}) else 'parameters'}.{key}": value
                    for name, values in found.items() for key, value in values.items()}
-        tuned = Variant(title=f"tuned, {self.tuning.runs} runs each", set=changed, controllers=tuple(found)
+        tuned = Variant(title=f"tuned, {counted(self.tuning.runs, 'run')} each", set=changed, controllers=tuple(found)
                         ) if self.tuning and found else None
         return (*self.variants, tuned) if tuned else self.variants
 

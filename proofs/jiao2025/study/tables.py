@@ -178,7 +178,7 @@ def seeds(results: JiaoResults) -> ResultTable:
     return ResultTable(
         "How much the drawn lengths matter", f"{drawn} seeds of T_0, T_1, ...",
         ("Run", *(f"MSE, trial {trial}: least / median / largest" for trial in trials),
-         "Trial 100 better than 50" if trials[:2] == (50, 100) else "The later trial better", "Diverge"), tuple(rows))
+         "Trial 100 better than 50" if trials[:2] == (50, 100) else "The later trial better", "Diverge"), tuple(rows), letters=True)
 
 
 TABLES = (statements, readings, growth, mended, changes, seeds)

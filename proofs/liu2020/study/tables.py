@@ -56,7 +56,7 @@ def _table_4(results: LiuResults) -> ResultTable:
                          *(Quantity(number, si=ENERGY_UNIT) if energy else number for number in numbers)))
     return ResultTable(f"Table 4: Value {study.table_4_column} under three disturbances", "paper, Table 4",
                        ("disturbance", "of", "printed", *(LAWS[law].title for law in laws)), tuple(rows),
-                       f"{RMS_NOTE} Table 4 prints them in 10⁻⁵; they stand here in m and m/s.")
+                       f"{RMS_NOTE} Table 4 prints them in 10⁻⁵; they stand here in m and m/s.", letters=True)
 
 
 def _implied(results: LiuResults) -> ResultTable:
@@ -93,7 +93,7 @@ def _ranges(results: LiuResults) -> ResultTable:
     return ResultTable("Ranges of Figures 14 to 18", "paper, text to Figures 14 to 18",
                        ("figure", "shows", "disturbance", "printed from", "to", "obtained from", "to"), tuple(rows),
                        "Value 10, signs corrected. The rates of the reference follow from Figure 18's range; no other "
-                       "value here was chosen by what is printed.")
+                       "value here was chosen by what is printed.", letters=True)
 
 
 def _laws_by_column(results: LiuResults) -> ResultTable:
@@ -105,7 +105,7 @@ def _laws_by_column(results: LiuResults) -> ResultTable:
         rows += [(sign, LAWS[law].title, *(results.rms(column, law, name) for column in ALL_COLUMNS))
                  for law in laws]
     return ResultTable("RMS values of every law, Values 1 to 10", "paper, Table 3", ("error", "law", *map(
-        str, ALL_COLUMNS)), tuple(rows), "In m and m/s. k₃ stands before ṽ, as (12) prints, unless said.")
+        str, ALL_COLUMNS)), tuple(rows), "In m and m/s. k₃ stands before ṽ, as (12) prints, unless said.", letters=True)
 
 
 def _divergence(results: LiuResults) -> ResultTable:

@@ -14,8 +14,9 @@ from typing import Any
 import numpy as np
 
 from workbench.errors import InputError
+from workbench.files.known_names import one_of
 from workbench.files.modules import python_files
-from workbench.files.numbers import unit_text
+from workbench.files.numbers import counted, unit_text
 from workbench.files.regular import contents
 from workbench.files.writing import make_folder, write_pieces
 from workbench.paper.cells import Column
@@ -114,7 +115,8 @@ class PlantSweep:
             name, unit = metric.title or metric.id.replace("_", " "), unit_text(metric.unit)
             header += [Column(f"{name}, mean", unit),
                        Column(f"{name}, {'least' if metric.measure == 'smallest' else 'largest'}", unit)]
-        return ResultTable(f"Monte Carlo, {self.runs} runs", f"plant {self.study.the_plant.id}", tuple(header),
+        return ResultTable(f"Monte Carlo, {counted(self.runs, 'run')}",
+                           f"plant {self.study.the_plant.id}", tuple(header),
                            tuple((name, *one.cells()) for name, one in zip(self.names, sums, strict=True)),
                            "Every controller meets the same drawn plants; failed runs are left out of the other "
                            "columns.")
@@ -134,8 +136,8 @@ def sweep(study: LocatedPlantStudy, runs: int | None = None, seed: int | None = 
     names = list(dict.fromkeys(controllers or entrants))
     for name in names:
         if name not in entrants:
-            raise InputError(study.file, "controllers", f"'{name}' is no controller of this study: choose among "
-                             f"{', '.join(entrants)}")
+            raise InputError(study.file, "controllers", f"'{name}' is no controller of this study: "
+                             f"{one_of(name, entrants)}")
     stated = study.uncertainty
     runs = runs or (stated.runs if stated else 1)
     seed = seed if seed is not None else stated.seed if stated else 0

@@ -49,7 +49,7 @@ from workbench.proof.selection import targets
 
 MOST_INPUTS = 10  # files, one in the other
 _INPUT = re.compile(r"\\(?:input|include)\s*\{([^{}]*)\}")
-REMEDY = "name another --directory"
+REMEDY = "name another --out"
 _CASES = re.compile(r"(?P<before>.*?)(?:\\left)?\s*(?:\\\{|\\lbrace)?\s*\\begin\s*\{cases\}"
                     r"(?P<lines>.*?)\\end\s*\{cases\}(?:\s*\\right\s*\.)?\s*", re.DOTALL)
 _WORDS = re.compile(r"\\(?:text|mbox|textrm)\s*\{\s*(?:if|for|when|otherwise|,)*\s*\}|\\quad|\\qquad", re.IGNORECASE)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import groupby
 
@@ -13,6 +14,7 @@ from workbench.report.finding import Finding
 from workbench.report.worded import worded
 
 NAMED = 5  # lines up to which each is named
+_PLURAL = re.compile(r"(?:\d+ )?[A-Za-z]+s\b")  # Theorems 2 and 3, 12 lines
 
 
 def resting_lines(decisions: Sequence[Decision], found: Sequence[Finding]) -> dict[str, list[str]]:
@@ -40,7 +42,7 @@ def consequence(found: Finding, numbers: Mapping[str, int], lines: Sequence[str]
         resting += [worded(place) for place in places_of(lines, titles)]
     else:
         resting.append(f"{len(lines)} {'other ' if resting else ''}lines")
-    one = len(found.headlines) + len(lines) == 1
+    one = len(resting) == 1 and not _PLURAL.match(resting[0])  # Theorem 1 is one, whatever lines it has
     text = f"{listed(resting)} rest{'s' if one else ''} on it." if resting else ""
     if found.gravity != "corrected":
         text = f"{text} {_way(found, numbers)}".strip()

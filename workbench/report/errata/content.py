@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
+from workbench.files.numbers import counted
 from workbench.proof.verdict import FAILED, VERDICTS, Decision, Fate, FateWord
 from workbench.proof.wording import listed
 from workbench.report.errata.blocks import Block, Heading, Item, Items, Paragraph
@@ -66,7 +67,7 @@ def _counts(decisions: Sequence[Decision], readings: Sequence[str], at_hand: boo
              "gap": "it does not follow from what the text uses to get there", "undecided": "not decided",
              "assumed": "a cited result or a definition, taken as given"}
     told = " ".join(f"{verdict.capitalize()}: {meant[verdict]}." for verdict in VERDICTS if counts[verdict])
-    return f"Of {len(own)} lines{said}, {words}{_open_readings(len(readings))}. {told}"
+    return f"Of {counted(len(own), 'line')}{said}, {words}{_open_readings(len(readings))}. {told}"
 
 
 def _open_readings(count: int) -> str:

@@ -16,9 +16,10 @@ from workbench.report.worded import worded
 
 def what_holds(decisions: Sequence[Decision], numbers: Mapping[str, int]) -> list[Block]:
     """The lines of the paper that are proved and rest on nothing that is not shown, by section: numbers, and of
-    headline statements, lines without a number and steps that the text only implies what they say. Those to which the text comes through a line that
-    fails stand apart; headline statements that stand only with corrections are told before. Then the corrections that
-    are of other parts of equations named here. numbers: of the corrections, by equation."""
+    headline statements, lines without a number and steps that the text only implies what they say. Those to which the
+    text comes through a line that fails stand apart; headline statements that stand only with corrections are told
+    before. Then the corrections that are of other parts of equations named here. numbers: of the corrections, by
+    equation."""
     by_id = {d.claim.id: d for d in decisions}
     proved = [d for d in decisions if d.claim.origin != "ours" and d.verdict == "proved" and not d.proved_under]
     through = [d for d in proved if not all(holds_in_other_reading(by_id[name], by_id) for name in d.tainted_by)]
