@@ -3,13 +3,19 @@
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 import sympy as sp
 
-from workbench.paper.plants.study import _winners
+from workbench.paper.plants.study import _inaccurate, _winners
 from workbench.paper.results import Curve, Plot
 from workbench.report.charts.chart import chart_json, chart_of
 from workbench.report.standings import parted, standings
 from workbench.report.table_view import table_views
+from workbench.simulate.plants.run import Entrant, run
+from workbench.simulate.plants.step_length import shortest_time
+from workbench.systems.law import StateLaw
+from workbench.systems.plant import Plant
+from workbench.systems.setting import Setting
 
 x_1, u = sp.symbols("x_1 u")
 SETTING = SimpleNamespace(tracks={"x_1": "r"}, plant=SimpleNamespace(id="doe.cart", inputs=(u,)), every_metric=(
@@ -35,3 +41,17 @@ def test_the_closest_is_named_with_its_error_the_others_and_what_it_takes():
 def test_letters_of_a_figure_are_shown_as_letters():
     plot = Plot("x_1", "state", "time (s)", "x_1 (m)", (Curve("rule_of_thumb", np.arange(3.0), np.arange(3.0)),))
     assert '"y":"x₁ (m)"' in chart_json(chart_of(plot)) and '"label":"rule_of_thumb"' in chart_json(chart_of(plot))
+
+
+def test_a_run_whose_step_was_too_long_says_so_though_it_came_to_an_end():
+    """A reaction that sets in on the way: x' = -x**3 from 3, whose time constant is 1/27 s there."""
+    x = sp.Symbol("x", real=True)
+    plant, law = Plant("cubic", (x,), (-x**3 + sp.sign(x - 1),)), StateLaw("none", {})
+    settings = [Setting(plant, 1.0, step_s=step, initial={"x": 3.0}, log_every_s=0.05) for step in (0.05, 0.01)]
+    runs = [run(setting, Entrant("free", 0.05, law)) for setting in settings]
+    assert all(one.failed is None for one in runs)
+    assert shortest_time(settings[0], runs[0]) == (pytest.approx(1 / 27), 0.0)
+    assert [*_inaccurate(settings[0], runs[0])] == [
+        "The numbers of free are not accurate: at t = 0 s the plant has a time constant of 0.0370 s, shorter than its "
+        "integration step of 0.0500 s. Give plant_step_s = 0.005 or less, or the integrator 'radau'."]
+    assert not [*_inaccurate(settings[1], runs[1])]

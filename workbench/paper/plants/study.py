@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 from workbench.errors import CompileError, InputError
@@ -14,6 +15,7 @@ from workbench.paper.results import Curve, Plot, ResultTable, StudyResult, thinn
 from workbench.paper.study import Progress, StudyKind
 from workbench.simulate.plants.run import PlantRun
 from workbench.simulate.plants.run import run as run_plant
+from workbench.simulate.plants.step_length import shortest_time
 from workbench.systems.setting import Setting
 from workbench.systems.signals import Constant
 from workbench.tasks.handing_out import results_of
@@ -98,6 +100,22 @@ def _findings(setting: Setting, runs: Sequence[PlantRun]) -> Iterator[str]:
         if run.fallbacks:
             yield (f"The solver of {run.name} gave nothing usable at {run.fallbacks} "
                    f"sample{'s' * (run.fallbacks > 1)}; its last plan went on there.")
+        yield from _inaccurate(setting, run)
+
+
+def _inaccurate(setting: Setting, run: PlantRun) -> Iterator[str]:
+    """That a run's step was too long for its numbers to be right, though it came to an end."""
+    found = shortest_time(setting, run) if setting.integrator == "rk4" and not setting.plant.updates else None
+    if found is not None and found[0] < setting.step_s:
+        yield (f"The numbers of {run.name} are not accurate: at t = {number(found[1])} s the plant has a time constant "
+               f"of {number(found[0])} s, shorter than its integration step of {number(setting.step_s)} s. Give "
+               f"plant_step_s = {_round_down(found[0] / 5):g} or less, or the integrator 'radau'.")
+
+
+def _round_down(value: float) -> float:
+    """The largest of 1, 2 and 5 times a power of ten that is no more than a positive value."""
+    exponent = math.floor(math.log10(value))
+    return float(f"{max(d for d in (1, 2, 5) if d <= value / 10.0**exponent * (1 + 1e-12))}e{exponent}")
 
 
 def _winners(setting: Setting, runs: Sequence[PlantRun]) -> ResultTable | None:
