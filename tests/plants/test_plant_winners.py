@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from workbench.paper.plants.study import _inaccurate, _winners
+from workbench.paper.plants.study import _findings, _inaccurate, _winners
 from workbench.paper.results import Curve, Plot
 from workbench.report.charts.chart import chart_json, chart_of
 from workbench.report.standings import parted, standings
@@ -55,3 +55,11 @@ def test_a_run_whose_step_was_too_long_says_so_though_it_came_to_an_end():
         "The numbers of free are not accurate: at t = 0 s the plant has a time constant of 0.0370 s, shorter than its "
         "integration step of 0.0500 s. Give plant_step_s = 0.005 or less, or the integrator 'radau'."]
     assert not [*_inaccurate(settings[1], runs[1])]
+
+
+def test_a_controller_whose_step_takes_longer_than_its_period_would_not_keep_up():
+    setting = SimpleNamespace(tracks={}, integrator="radau", every_metric=())
+    late = SimpleNamespace(name="mpc", ahead_s=0.0, failed=None, fallbacks=0, step_us=601.0, period_s=1e-4)
+    assert [*_findings(setting, [late])] == ["A step of mpc took 0.000601 s here, longer than its period of 0.000100 "
+                                             "s: on this computer it would not keep up."]
+    assert not [*_findings(setting, [SimpleNamespace(**{**vars(late), "step_us": 99.0})])]

@@ -100,6 +100,9 @@ def _findings(setting: Setting, runs: Sequence[PlantRun]) -> Iterator[str]:
         if run.fallbacks:
             yield (f"The solver of {run.name} gave nothing usable at {run.fallbacks} "
                    f"sample{'s' * (run.fallbacks > 1)}; its last plan went on there.")
+        if run.step_us > run.period_s * 1e6:
+            yield (f"A step of {run.name} took {number(run.step_us / 1e6)} s here, longer than its period of "
+                   f"{number(run.period_s)} s: on this computer it would not keep up.")
         yield from _inaccurate(setting, run)
 
 
