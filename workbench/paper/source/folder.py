@@ -12,6 +12,8 @@ from workbench.errors import InputError
 from workbench.files.text import read_text
 from workbench.files.writing import write_text, write_tree
 from workbench.paper.new_paper import new_folder
+from workbench.paper.source.bounded import bounds_said, unclear_bounds
+from workbench.paper.source.bounds import bounded_in
 from workbench.paper.source.deciding import (
     as_read,
     doubted,
@@ -127,11 +129,22 @@ def rows_and_letters(found: Source) -> tuple[list[RowEntry], dict[str, LetterEnt
     rows = with_roles(_with_definitions([entry for _, entry in made], facts), standing, {
         entry.id: row for row, entry in made if row.what == "Equation"}, functions_in(found.text))
     rows = [as_read(row, standing.get(row.id)) for row in rows]
-    letters = table_of(rows, facts, found.text)
+    bounded = [RowEntry(id=f"bound{number}", title=f"Bound {number} in the text", role="assumption", printed=formula)
+               for number, formula in enumerate(bounds_said(facts), 1)]
+    said = table_of([*bounded, *rows], facts, found.text)
+    unclear = unclear_bounds(facts, [row.printed for row in bounded],
+                             [letter for letter, entry in said.items() if entry.role == "constant"])
+    rows = [*(row for row in bounded if not {*bounded_in(row.printed)} & unclear), *rows]
+
+    def table() -> dict[str, LetterEntry]:
+        known = table_of(rows, facts, found.text)
+        return known | {letter: LetterEntry() for letter in unclear & {*known}}
+
+    letters = table()
     while unreadable := first_unreadable(tuple(rows), letters):
         left = {"role": "words", "unread": f"'{unreadable[1]}'"}
         rows = [row.model_copy(update=left) if row.id == unreadable[0] else row for row in rows]
-        letters = table_of(rows, facts, found.text)
+        letters = table()
     return rows, letters, standing
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from workbench.paper.source.bounds import bounded_in
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.parts import parted
 from workbench.proof.latex.read import read_line
@@ -23,7 +24,7 @@ from workbench.proof.latex.tree import Letter, Node, Number
 _FOR = re.compile(
     r"\b(?:for|on)\s+(?:(?:all|every|any|each|some)\s*)?\$[^$]*(?:[=<>]|\\(?:leq?|geq?|leqslant|geqslant|ne|neq|in)(?![A-Za-z])"
     r"(?!\s*\\mathbb\s*\{R\}(?:\^[^$\s]*)?\s*\$))[^$]*\$", re.IGNORECASE | re.DOTALL)
-_INLINE = re.compile(r"(?<![\\$])\$(?!\$)(.+?)(?<!\\)\$(?!\$)|\\\((.+?)\\\)", re.DOTALL)
+INLINE = re.compile(r"(?<![\\$])\$(?!\$)(.+?)(?<!\\)\$(?!\$)|\\\((.+?)\\\)", re.DOTALL)
 _LIST = r"((?:\$[^$]+\$(?:\s*,\s*(?:and\s+)?|\s+and\s+)?)+)"
 _CONSTANTS = re.compile(r"\b(?:constants?|gains?|parameters?)\b"
                         r"(?![^$]{0,30}\b(?:on|over|in|for|of|at|when|with|to|by)\b)[^.,;:$]{0,30}" + _LIST,
@@ -61,7 +62,7 @@ _DEFINING = re.compile(r"\b(?:(?:let|defin(?:e|ing)|denot(?:e|ing)|introduc(?:e|
 _ENVIRONMENT = re.compile(r"\\begin\s*\{((?!def)\w+\*?)\}.*?\\end\s*\{\1\}", re.DOTALL)  # a Definition is kept
 _SENTENCE = re.compile(r"(?<=[.!?;])\s|\\(?:begin|end)\s*\{[^{}]*\}|\\(?:item|(?:sub)*section)|\n\s*\n|\\[\[\]]|\$\$")
 # A sentence with one of these says of no letter that it has a sign everywhere, or is constant.
-_NOT_EVERYWHERE = re.compile(
+NOT_EVERYWHERE = re.compile(
     r"\b(?:if|when|whenever|while|until|unless|provided|cases?|either|n?or|neither|not|whether|suppose|then|may|might|"
     r"could|can|would|should|follow\w*|hence|thus|therefore|impl(?:y|ies)|yields?|since|because|sets?(?!-)|region|domain|"
     r"(?:in|out)side|instance|example|show\w*|prove\w*|conclude\w*|near|small|large|initially|first|once)\b|\bas\s*\$",
@@ -82,22 +83,22 @@ _SIGNS = {">": "positive", ">=": "nonnegative"}
 
 def letters_said(fact: str) -> set[str]:
     """The letters of a fact's formulas."""
-    formulas = [(inline[1] or inline[2]).strip(" .,;") for inline in _INLINE.finditer(fact)]
+    formulas = [(inline[1] or inline[2]).strip(" .,;") for inline in INLINE.finditer(fact)]
     return {letter for formula in formulas for letter in letters_of_text(formula)}
 
 
 def says_sign(fact: str) -> bool:
     """Whether a fact says a sign, by a word or a formula."""
-    formulas = [(inline[1] or inline[2]).strip(" .,;") for inline in _INLINE.finditer(fact)]
+    formulas = [(inline[1] or inline[2]).strip(" .,;") for inline in INLINE.finditer(fact)]
     return "positive" in fact or "negative" in fact or any(
-        kind != "real" for formula in formulas for _, kind in kinds_in(formula))
+        kind != "real" for formula in formulas for _, kind in kinds_in(formula)) or any(map(bounded_in, formulas))
 
 
 def signed_by_words(fact: str) -> set[str]:
     """The letters of a fact that speaks of their sign in words, but those that it calls real."""
     if "positive" not in fact and "negative" not in fact:
         return set()
-    formulas = [(inline[1] or inline[2]).strip(" .,;") for inline in _INLINE.finditer(fact)]
+    formulas = [(inline[1] or inline[2]).strip(" .,;") for inline in INLINE.finditer(fact)]
     return {letter for formula in formulas if not [*kinds_in(formula)] for letter in letters_of_text(formula)}
 
 
@@ -105,7 +106,7 @@ def said_of(facts: str) -> dict[str, str]:
     """Of each letter the first fact that speaks of it."""
     found: dict[str, str] = {}
     for fact in facts.split("\n\n"):
-        for inline in _INLINE.finditer(fact):
+        for inline in INLINE.finditer(fact):
             for letter in letters_of_text((inline[1] or inline[2]).strip(" .,;")):
                 found.setdefault(letter, fact.removesuffix("."))
     return found
@@ -154,7 +155,7 @@ def _estimated(letter: str) -> str:
 def functions_in(text: str) -> set[str]:
     """The letters that the text calls functions of the state: an energy, a storage or a Lyapunov function."""
     return {letter for pattern in (_FUNCTIONS, _ARE_FUNCTIONS) for found in pattern.finditer(text)
-            for inline in _INLINE.finditer(found[1])
+            for inline in INLINE.finditer(found[1])
             for letter in letters_of_text(re.split(r"=|\(|\\in(?![A-Za-z])", inline[1] or inline[2])[0])}
 
 
@@ -171,7 +172,7 @@ def assumed_formulas(text: str) -> Iterator[str]:
     text = _AT_ALL_TIMES.sub(" ", text)
     if on_condition(text):
         return
-    for inline in _INLINE.finditer(text):
+    for inline in INLINE.finditer(text):
         formula = (inline[1] or inline[2]).strip(" .,;")
         try:
             chains = read_line(formula).chains
@@ -187,7 +188,7 @@ def defined_in_text(text: str) -> dict[str, str]:
     and the formula; a letter with two of them is left out, as is what holds within a theorem or a proof alone."""
     text = _ENVIRONMENT.sub(" ", text)
     found: dict[str, set[str]] = {}
-    for inline in _INLINE.finditer(text):
+    for inline in INLINE.finditer(text):
         formula = (inline[1] or inline[2]).strip(" .,;")
         values, _ = values_and_rates(formula)
         for letter, value in values.items():
@@ -201,7 +202,7 @@ def defined_in_text(text: str) -> dict[str, str]:
 def _valued_elsewhere(text: str) -> Iterator[str]:
     """The letters that a formula in the text gives a value of other letters: where nothing says that it defines them,
     they are left to the author."""
-    for inline in _INLINE.finditer(text):
+    for inline in INLINE.finditer(text):
         for letter, value in values_and_rates((inline[1] or inline[2]).strip(" .,;"))[0].items():
             if letters_of_text(value):
                 yield letter
@@ -210,17 +211,17 @@ def _valued_elsewhere(text: str) -> Iterator[str]:
 def _named(pattern: re.Pattern[str], text: str) -> Iterator[str]:
     """The letters in the list of formulas that some words stand before."""
     for found in pattern.finditer(text):
-        sentence = _around(text, found.start(), found.end())
+        sentence = around(text, found.start(), found.end())
         near = text[max(found.start() - 40, 0):found.end()] + text[found.end():found.end() + 30].partition(",")[0]
-        if (pattern is not _INPUTS and _NOT_EVERYWHERE.search(sentence)) or (
+        if (pattern is not _INPUTS and NOT_EVERYWHERE.search(sentence)) or (
                 pattern is _CONSTANTS and _VARIES.search(near)):
             continue
-        for inline in _INLINE.finditer(found[1]):
+        for inline in INLINE.finditer(found[1]):
             formula = inline[1] or inline[2]  # the disturbance |d| <= D: d is one, D is not
             yield from letters_of_text(_RELATION.split(formula)[0] if pattern is _INPUTS else formula)
 
 
-def _around(text: str, start: int, end: int) -> str:
+def around(text: str, start: int, end: int) -> str:
     """The sentence in which a piece of a text stands."""
     before, behind = text[max(start - _REACH, 0):start], text[end:end + _REACH]
     return f"{_SENTENCE.split(before)[-1]} {text[start:end]} {_SENTENCE.split(behind)[0]}"
@@ -234,17 +235,19 @@ def _rated(rows: list[RowEntry]) -> set[str]:
 
 def _printed_of_time(text: str, rows: list[RowEntry]) -> set[str]:
     """The letters that are printed with the time somewhere, as `\\theta(t)`: of those no word makes constants."""
-    formulas = [inline[1] or inline[2] for inline in _INLINE.finditer(text)]
+    formulas = [inline[1] or inline[2] for inline in INLINE.finditer(text)]
     formulas += [text_of(row) for row in rows if row.role != "words"]
     return {letter for formula in formulas if "(t)" in formula for letter in letters_of_time(formula)}
 
 
 def _kinds(text: str) -> Iterator[tuple[str, str]]:
     r"""Letters whose sign a formula in the text says, as `k, c > 0`, or that they are real, as `x \in \mathbb{R}`."""
-    for inline in _INLINE.finditer(text):
-        conditional = _ON_CONDITION.search(text[:inline.start()]) is not None or _NOT_EVERYWHERE.search(
-            _around(text, inline.start(), inline.end())) is not None
-        for letter, kind in kinds_in((inline[1] or inline[2]).strip(" .,;")):
+    for inline in INLINE.finditer(text):
+        conditional = _ON_CONDITION.search(text[:inline.start()]) is not None or NOT_EVERYWHERE.search(
+            around(text, inline.start(), inline.end())) is not None
+        formula = (inline[1] or inline[2]).strip(" .,;")
+        positive = [(letter, kind) for letter, kind in bounded_in(formula).items() if kind == "positive"]
+        for letter, kind in (*kinds_in(formula), *positive):
             if kind == "real" or not conditional:
                 yield letter, kind
 

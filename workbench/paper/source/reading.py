@@ -14,6 +14,7 @@ from itertools import pairwise
 from types import MappingProxyType
 
 from workbench.paper.source import forms, narrowing, things, understood, vocabulary
+from workbench.paper.source.bounds import bounded_in
 from workbench.paper.source.idioms import plainly
 from workbench.paper.source.letters import kinds_in, values_and_rates
 from workbench.paper.source.passages import Sentence, Word
@@ -94,7 +95,7 @@ def read_sentence(sentence: Sentence, body: str, assuming: bool = False, given: 
     else:
         said = _said(words, found, body, letters, told)
     taken = {*range(len(texts))}.difference(*(range(start, end) for rule, start, end in found or () if rule == "fact"))
-    bound = [words[at].text for at in sorted(taken) if classes[at] in (forms.SIGN, forms.RELATION)]
+    bound = [words[at].text for at in sorted(taken) if classes[at] in (forms.SIGN, forms.RELATION, forms.BOUND)]
     return _whole(said, texts, [text if at in taken else "" for at, text in enumerate(texts)], bound, giving)
 
 
@@ -236,6 +237,8 @@ def _class_of(line: Line, formula: str, real: bool) -> str:
     heads = [chain.sides[0] for chain in line.chains]
     if all(map(_is_letter, heads)) and len([*kinds_in(formula)]) == len(heads):
         return forms.SIGN
+    if bounded_in(formula):
+        return forms.BOUND
     values, _ = values_and_rates(formula)
     if len(values) == 1 and all(letters_of_text(right) - {letter} for letter, right in values.items()):
         return forms.DEFINES
@@ -251,7 +254,7 @@ def _loose(classes: Sequence[str]) -> bool:
     """Whether a sentence is made of words alone that claim what it shows, in whatever form; what stands before
     "implies" may be a condition."""
     plain = (forms.LETTERS, forms.REAL, forms.VALUE, forms.TIME, forms.REFERENCE, forms.SIGN, forms.RELATION,
-             forms.DEFINES, forms.DISPLAY, ",", ":", ";")
+             forms.BOUND, forms.DEFINES, forms.DISPLAY, ",", ":", ";")
     if not all(one in forms.LOOSE or one in plain for one in classes):
         return False
     pairs = [*pairwise(classes)]

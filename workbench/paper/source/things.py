@@ -40,7 +40,8 @@ ERRORS = _words("error errors error-signal deviation deviations variable variabl
 OF_ERRORS = _words("""
     tracking regulation estimation observation observer parameter position speed velocity level temperature current
     voltage angle altitude heading attitude state output formation spacing synchronization sliding switching new
-    filtered-error combined integral control following sliding-mode adaptation input approximation scalar
+    filtered-error combined integral control following sliding-mode adaptation input approximation scalar normalized
+    normalised transformed scaled weighted consensus
 """)
 # Numbers that a formula may give.
 NUMBERS = _words("gain gains parameter parameters constant constants coefficient coefficients number numbers scalar "
