@@ -15,6 +15,7 @@ from types import MappingProxyType
 
 from workbench.paper.source import forms, narrowing, things, understood, vocabulary
 from workbench.paper.source.bounds import bounded_in
+from workbench.paper.source.given import RATE
 from workbench.paper.source.idioms import plainly
 from workbench.paper.source.letters import kinds_in, values_and_rates
 from workbench.paper.source.passages import Sentence, Word
@@ -115,6 +116,10 @@ def _whole(said: Reading, texts: Sequence[str], taken: Sequence[str], bound: Seq
     of a part of the motion alone. taken: its words but those that say what letters are; bound: its relations."""
     given = {letter for number, form in said.shown.items() if form in GIVING
              for letter in giving.get(number, ())} or {fact for fact in said.facts if fact.startswith(DEFINE)}
+    if given and all(letter.startswith("\\") and not letter.startswith(RATE) for letter in given):
+        # Of backstepping: a letter of its own, and no input of a plant, which no paper calls by a Greek letter.
+        taken = [text for text, behind in zip(taken, (*taken[1:], ""), strict=True)
+                 if text != "virtual" or behind not in things.LAWS]
     if said.shown or given:
         odd = understood.not_understood(taken, not given, any(map(understood.is_marked, given))) or (
             (*bound, *(_STRANGERS & {*texts})) if given else narrowing.in_coordinates(texts))

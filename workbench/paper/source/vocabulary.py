@@ -160,7 +160,8 @@ BEFORE_ERROR = _words("""
     squared absolute tracking estimation position velocity speed parameter observation regulation approximation
     state output control
     formation synchronization prediction learning modelling attitude closed-loop angular heading angle input
-    filtered level temperature current voltage spacing adaptation
+    filtered level temperature current voltage spacing adaptation normalized normalised transformed scaled weighted
+    consensus compensated
 """)
 ADVERBS = _words("""
     also then now thus therefore hence further easily directly immediately finally first next clearly readily again

@@ -1,0 +1,31 @@
+r"""What sources on backstepping call what they design: virtual controls, command filters, compensated errors."""
+
+import pytest
+
+from workbench.paper.source.document import read_source
+from workbench.paper.source.folder import rows_and_letters
+
+TEXT = r"""\documentclass{article}\begin{document}
+Consider the system \begin{align} \dot x_1 &= x_2, \\ \dot x_2 &= u, \end{align}
+where $x_1, x_2 \in \mathbb{R}$ are the states and $u \in \mathbb{R}$ is the control input.
+Define the transformed errors \begin{equation} z_1 = x_1, \quad z_2 = x_2 - \alpha_f . \end{equation}
+The virtual control is \begin{equation} \alpha = -k_1 z_1, \end{equation} where $k_1 > 0$ is a design constant.
+The command filter is \begin{equation} \dot\alpha_f = -\omega (\alpha_f - \alpha), \end{equation}
+where $\omega > 0$ is the filter bandwidth.
+The compensating signal is \begin{equation} \dot\xi = -k_1 \xi + \alpha_f - \alpha . \end{equation}
+The compensated error is \begin{equation} v_1 = z_1 - \xi . \end{equation}
+The control law is \begin{equation} u = -k_1 z_2 . \end{equation} \end{document}"""
+
+
+def roles(text):
+    return {row.id: row.role for row in rows_and_letters(read_source(text))[0]}
+
+
+def test_what_a_paper_on_command_filters_designs_is_taken():
+    assert [*roles(TEXT).values()] == ["dynamics", "dynamics", "definition", "definition", "dynamics", "dynamics",
+                                       "definition", "definition"]
+
+
+@pytest.mark.parametrize("word", ["virtual", "ideal", "desired"])
+def test_what_is_no_law_of_the_plant_s_input_is_left_to_the_author(word):
+    assert roles(TEXT.replace("The control law is", f"The {word} control is"))["8"] != "definition"
