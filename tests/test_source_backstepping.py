@@ -26,6 +26,11 @@ def test_what_a_paper_on_command_filters_designs_is_taken():
                                        "definition", "definition"]
 
 
+def test_gains_and_bandwidths_are_constants():
+    letters = rows_and_letters(read_source(TEXT))[1]
+    assert [letters[letter].role for letter in (r"\omega", "k_{1}")] == ["constant", "constant"]
+
+
 @pytest.mark.parametrize("word", ["virtual", "ideal", "desired"])
 def test_what_is_no_law_of_the_plant_s_input_is_left_to_the_author(word):
     assert roles(TEXT.replace("The control law is", f"The {word} control is"))["8"] != "definition"

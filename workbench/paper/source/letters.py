@@ -39,7 +39,8 @@ _ARE_POSITIVE = re.compile(
     r"(?:constants?|gains?|numbers?|scalars?|parameters?)\b", re.IGNORECASE)
 _ARE_CONSTANTS = re.compile(
     _LIST + r"\s*(?:be|are|is)\s+(?:an?\s+|all\s+|some\s+|the\s+)?"
-    r"(?:(?:(?:positive|nonnegative|real|known|unknown|design|control)\s+)*(?:constants?|gains?|parameters?)\b"
+    r"(?:(?:(?:positive|nonnegative|real|known|unknown|design|control|controller|feedback|observer|filter|adaptation)\s+)*"
+    r"(?:constants?|gains?|parameters?|(?<=filter )bandwidth|(?<=observer )bandwidth)\b"
     r"|(?!piecewise|locally|almost|nearly|slowly|not|no)[a-z-]+\s+constants?(?=[\s]*(?:[,.;]|and\b|of\b|\Z)))",
     re.IGNORECASE)
 _INPUTS = re.compile(r"\b(?:disturbances?|inputs?|references?)\b[^.,;:$]{0,30}" + _LIST, re.IGNORECASE)
