@@ -4,6 +4,7 @@ import pytest
 
 from workbench.paper.source.document import read_source
 from workbench.paper.source.folder import rows_and_letters
+from workbench.proof.latex.symbols import _name
 
 TEXT = r"""\documentclass{article}\begin{document}
 Consider the system \begin{align} \dot x_1 &= x_2, \\ \dot x_2 &= u, \end{align}
@@ -34,3 +35,11 @@ def test_gains_and_bandwidths_are_constants():
 @pytest.mark.parametrize("word", ["virtual", "ideal", "desired"])
 def test_what_is_no_law_of_the_plant_s_input_is_left_to_the_author(word):
     assert roles(TEXT.replace("The control law is", f"The {word} control is"))["8"] != "definition"
+
+
+@pytest.mark.parametrize(("typed", "name"), [
+    (r"\hat\theta", "theta_hat"), (r"\hat{\theta}_{1}", "theta_hat_1"), (r"\overline{d}", "d_bar"),
+    (r"\dot{\hat{\theta}}", "theta_hat_dot"), (r"\alpha_{f}", "alpha_f"), (r"k_1", "k_1")])
+def test_a_letter_has_the_name_by_which_it_is_written_again(typed, name):
+    r"""As hat_theta it stood in errata as a word, and not as \hat\theta."""
+    assert _name(typed, {}) == name

@@ -165,7 +165,7 @@ def _with_inputs(text: str, source: Path, depth: int = 0) -> str:
 
 def entries(row: Row, source: Source) -> list[RowEntry]:
     """A row as it stands in the table; a formula of cases is one row for each case, under its condition."""
-    title = f"{row.what} {row.number or 'without a number'}" if row.what == "Equation" else (
+    title = (f"Equation ({row.number})" if row.number else "Equation without a number") if row.what == "Equation" else (
         f"{row.what} {row.number}".strip() + (f": {row.title}" if row.title else ""))
     def kept(one: Row) -> bool:
         return source.said.kept(one.labels, one.number)
