@@ -37,6 +37,11 @@ def test_what_is_no_law_of_the_plant_s_input_is_left_to_the_author(word):
     assert roles(TEXT.replace("The control law is", f"The {word} control is"))["8"] != "definition"
 
 
+def test_interconnected_systems_are_plants_under_their_heading():
+    text = TEXT.replace("Consider the system", r"\section{Interconnection} Consider the interconnected systems")
+    assert roles(text) == roles(TEXT)
+
+
 @pytest.mark.parametrize(("typed", "name"), [
     (r"\hat\theta", "theta_hat"), (r"\hat{\theta}_{1}", "theta_hat_1"), (r"\overline{d}", "d_bar"),
     (r"\dot{\hat{\theta}}", "theta_hat_dot"), (r"\alpha_{f}", "alpha_f"), (r"k_1", "k_1")])

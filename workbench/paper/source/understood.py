@@ -51,6 +51,7 @@ _HEADINGS = _words("""
     introduction problem formulation statement preliminaries main results description modelling modeling lecture
     controlled setup synthesis notation notations background backstepping sliding mode adaptive passivity digital
     discrete-time on-board controller law laws stabilisation performance exercise solution day week
+    interconnection interconnected small-gain prescribed funnel command-filtered
 """)
 # By these a sentence without formulas changes what was given, or speaks of a part of it.
 _TURNS = _words("""
