@@ -16,9 +16,11 @@ from workbench.simulate.plants.step_length import shortest_time
 from workbench.systems.law import StateLaw
 from workbench.systems.plant import Plant
 from workbench.systems.setting import Setting
+from workbench.systems.signals import Constant
 
 x_1, u = sp.symbols("x_1 u")
-SETTING = SimpleNamespace(tracks={"x_1": "r"}, plant=SimpleNamespace(id="doe.cart", inputs=(u,)), every_metric=(
+CART = SimpleNamespace(id="doe.cart", inputs=(u,), state_limits={}, units={})
+SETTING = SimpleNamespace(tracks={"x_1": "r"}, plant=CART, every_metric=(
     SimpleNamespace(id="x_1_error_rms", unit="m"), SimpleNamespace(id="u_rms", unit="N")))
 
 
@@ -58,8 +60,28 @@ def test_a_run_whose_step_was_too_long_says_so_though_it_came_to_an_end():
 
 
 def test_a_controller_whose_step_takes_longer_than_its_period_would_not_keep_up():
-    setting = SimpleNamespace(tracks={}, integrator="radau", every_metric=())
+    setting = SimpleNamespace(tracks={}, integrator="radau", every_metric=(), plant=CART)
     late = SimpleNamespace(name="mpc", ahead_s=0.0, failed=None, fallbacks=0, step_us=601.0, period_s=1e-4)
     assert [*_findings(setting, [late])] == ["A step of mpc took 0.000601 s here, longer than its period of 0.000100 "
                                              "s: on this computer it would not keep up."]
     assert not [*_findings(setting, [SimpleNamespace(**{**vars(late), "step_us": 99.0})])]
+
+
+def test_who_leaves_the_plant_s_limits_is_told_and_wins_over_nobody_who_keeps_them():
+    """An MPC that let the cart go 25 m beyond its metre of rail was named as the closest."""
+    limited = SimpleNamespace(**{**vars(CART), "state_limits": {x_1: (-1.0, 1.0)}, "units": {x_1: "m"}})
+    setting = SimpleNamespace(**{**vars(SETTING), "plant": limited, "references": {"r": Constant(value=0.0)},
+                                 "integrator": "radau"})
+
+    def gone(name, error, excess):
+        run = ended(name, error)
+        return SimpleNamespace(**{**vars(run), "metrics": {**run.metrics, "x_1_limit_excess": excess}, "ahead_s": 0.0,
+                                  "fallbacks": 0, "period_s": 0.1})
+
+    far, near, slight = gone("mpc", 0.02, 24.6), gone("pid", 0.5, 0.0), gone("lqr", 0.6, 0.01)
+    assert _winners(setting, [far, slight, near]).text[0][1:4] == (
+        "pid", "0.500 m", "lqr 0.600 m; mpc 0.0200 m beyond the limits")
+    assert [*_findings(setting, [far, near, slight])] == [
+        "RMS error of x_1, least within the plant's limits: pid, 0.500 m.",
+        "mpc goes beyond the plant's limits: x_1 by 24.6 m."]
+    assert _winners(setting, [far, gone("lost", 0.5, 3.0)]).text[0][1] == "mpc beyond the limits"
