@@ -4,6 +4,7 @@ import pytest
 
 from workbench.paper.source.document import read_source
 from workbench.paper.source.folder import rows_and_letters
+from workbench.paper.source.row import Row, with_numbers
 from workbench.proof.latex.symbols import _name
 
 TEXT = r"""\documentclass{article}\begin{document}
@@ -48,3 +49,9 @@ def test_interconnected_systems_are_plants_under_their_heading():
 def test_a_letter_has_the_name_by_which_it_is_written_again(typed, name):
     r"""As hat_theta it stood in errata as a word, and not as \hat\theta."""
     assert _name(typed, {}) == name
+
+
+def test_a_theorem_in_words_has_the_numbers_that_are_printed():
+    rows = [Row("1", "Equation", "1", "", ("eq:x",)), Row("assumption2", "Assumption", "2", "", ("as:d",))]
+    assert with_numbers(r"By \eqref{eq:x}, Assumption~\ref{as:d} and \eqref{eq:no}", rows) == (
+        r"By (1), Assumption 2 and \eqref{eq:no}")

@@ -33,7 +33,7 @@ from workbench.paper.source.letters import (
 from workbench.paper.source.lines import ENDS_WITH_RELATION, system_lines
 from workbench.paper.source.macros import SourceError, without_comments
 from workbench.paper.source.roles import with_roles
-from workbench.paper.source.row import Row
+from workbench.paper.source.row import Row, with_numbers
 from workbench.paper.source.shown import Standing
 from workbench.proof.latex.rows import (
     ROWS,
@@ -183,7 +183,8 @@ def entries(row: Row, source: Source) -> list[RowEntry]:
                     if is_assumption(row.what) and source.said.understood(*row.span) and kept(row)]
         rests = tuple(dict.fromkeys((*row.rests_on, *(one.id for one in formulas),
                                      *(one for one in inside if row.id not in _of(source, one)))))
-        return [whole.model_copy(update={"role": "words", "rests_on": rests}), *formulas]
+        printed = with_numbers(row.printed, source.rows) or row.what
+        return [whole.model_copy(update={"role": "words", "printed": printed, "rests_on": rests}), *formulas]
     if row.within in assumed:
         stands = not on_condition(assumed[row.within].printed) and kept(assumed[row.within])
         return [whole.model_copy(update={"role": "assumption" if stands else "words"})]
