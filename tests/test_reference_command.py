@@ -114,7 +114,7 @@ def test_a_run_that_arrives_early_says_so(tmp_path: Path) -> None:
         told[auxiliary] = said(tmp_path / "line.toml", tmp_path / "train.toml", "--time", 100, "--intervals", 60,
                                "--json", tmp_path / "r.json")
     assert "arrives  " not in told[0.0] and "note: no grade" not in told[0.0]
-    assert re.search(r"line +grades 0 to 0 per mille, limits 54 to 54 km/h; the run at most [1-5]\d\.\d km/h, "
+    assert re.search(r"line +grades 0 per mille, limits 54 km/h; the run at most [1-5]\d\.\d km/h, "
                      r"1[34]\.\d km/h on average", told[0.0])
     took = json.loads((tmp_path / "r.json").read_text(encoding="utf-8"))["trip_time_s"]
     assert took < 90

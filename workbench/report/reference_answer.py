@@ -189,12 +189,16 @@ def _summary(asked: Request, line: Line, vehicle: Vehicle, found: Reference,
 def _line_as_read(line: Line, found: Reference) -> Iterator[str]:
     """What was read of the line and how fast the run is, in the units that timetables have: a wrong one is seen."""
     grades, limits = ([value for _, value in rows] for rows in (line.grades, line.limits))
-    said = [f"grades {min(grades):g} to {max(grades):g} per mille"]
+    said = [f"grades {_from_to(f'{min(grades):g}', f'{max(grades):g}')} per mille"]
     stated = [limit for limit in limits if limit < math.inf]
     if stated:
-        said.append(f"limits {_kmh(min(stated))} to {_kmh(max(stated))} km/h")
+        said.append(f"limits {_from_to(_kmh(min(stated)), _kmh(max(stated)))} km/h")
     top, mean = float(found.profile.speed_mps.max()), found.profile.course.length_m / found.profile.trip_time_s
     yield f"line          {', '.join(said)}; the run at most {_kmh(top)} km/h, {_kmh(mean)} km/h on average"
+
+
+def _from_to(least: str, most: str) -> str:
+    return least if least == most else f"{least} to {most}"
 
 
 def _kmh(speed_mps: float) -> str:
