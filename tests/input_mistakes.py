@@ -25,6 +25,7 @@ SCENARIO_MISTAKES = {
     "mass in tonnes": ("mass_kg = 200000.0", "mass_kg = 200.0", "train", "is it in tonnes?"),
     "traction in kN": ("max_traction_n = 200000.0", "max_traction_n = 200.0", "train", "is it in kN?"),
     "braking in kN": ("max_braking_n = 240000.0", "max_braking_n = 240.0", "train", "is it in kN?"),
+    "resistance in N": ("davis_a_mps2 = 0.3", "davis_a_mps2 = 2160.0", "train", "divide by mass_kg"),
     "power in kW": (
         "max_braking_n = 240000.0\n\n[train.source]",
         "max_braking_n = 240000.0\nmax_power_w = 3000.0\n[train.source]\nmax_power_w = 'assumed: x'", "train",

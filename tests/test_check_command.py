@@ -66,7 +66,7 @@ def test_what_is_shown_is_made_from_the_goal_and_reads_back(symbols):
     loaded = load_symbols(symbols)
     found = answer(r"e_1 = k \Rightarrow \dot V_1 \ge \hat\theta_1 - |e_1|", loaded).document()
     goal = found["goal"]
-    assert goal["constant"] == [r"\alpha", r"\hat\theta_1", "k"]
+    assert goal["constant"] == [r"\alpha", "k", r"\hat\theta_1"]
     assert goal["flow"][0] == r"\frac{d}{dt} e_1 = - \alpha e_1"
     assert set(goal["assume"]) == {r"\alpha > 0", "k > 0", "e_1^{2} < k^{2}", "e_1 = k"}
     again = asked(f"{', '.join(goal['assume'])} \\Rightarrow {goal['show'][0]}", loaded)

@@ -13,7 +13,7 @@ from scenarios import DRIVEN, SHARED, YANG, line_name
 
 from workbench.errors import WorkbenchError
 from workbench.optimal.bound_checker import main as check_bounds
-from workbench.optimal.inputs.files import load_vehicle
+from workbench.optimal.inputs.files import load_line, load_vehicle
 from workbench.optimal.vehicle import Vehicle
 
 HILLS, TRAIN = SHARED / "lines" / "hills.toml", SHARED / "trains" / "yang2021.toml"
@@ -113,7 +113,9 @@ def test_a_run_that_arrives_early_says_so(tmp_path: Path) -> None:
         (tmp_path / "train.toml").write_text(f"{train}auxiliary_w = {auxiliary}\n", encoding="utf-8")
         told[auxiliary] = said(tmp_path / "line.toml", tmp_path / "train.toml", "--time", 100, "--intervals", 60,
                                "--json", tmp_path / "r.json")
-    assert "arrives  " not in told[0.0]
+    assert "arrives  " not in told[0.0] and "note: no grade" not in told[0.0]
+    assert re.search(r"line +grades 0 per mille, limits 54 km/h; the run at most [1-5]\d\.\d km/h, "
+                     r"1[34]\.\d km/h on average", told[0.0])
     took = json.loads((tmp_path / "r.json").read_text(encoding="utf-8"))["trip_time_s"]
     assert took < 90
     assert f"arrives       after {took:.1f} s, {100 - took:.1f} s early" in told[80e3]
@@ -159,3 +161,13 @@ def test_mistakes_are_one_line_with_a_remedy(arguments: tuple[object, ...], mess
     with pytest.raises(WorkbenchError, match=message) as trouble:
         said(*arguments)
     assert "\n" not in str(trouble.value)
+
+
+def test_grades_that_are_ratios_are_told(tmp_path: Path) -> None:
+    """A climb of 0.02 per mille on a line of no other is 20 per mille, written as a ratio."""
+    text = HILLS.read_text(encoding="utf-8")
+    ratios = re.sub(r"(?<=grade_permille = )(-?[\d.]+)", lambda found: str(float(found[1]) / 1000), text)
+    (tmp_path / "line.toml").write_text(ratios, encoding="utf-8")
+    assert load_line(tmp_path / "line.toml")[1] == (
+        "no grade of line 'synthetic hilly line' is above 0.027 per mille: are they ratios, and not per mille?",)
+    assert load_line(HILLS)[1] == ()

@@ -198,6 +198,7 @@ def test_the_sampling_period_is_a_laws_alone() -> None:
 @pytest.mark.parametrize(("old", "new", "told"), [
     ("reference.x_d", "reference.y_d", "tracks.x = 'x_d' is no reference: state reference.x_d$"),
     ("at_s = 5.0", "at_s = 5.0004", r"study.toml: disturbance.d: at_s = 5.0004 s is no whole number"),
+    ("tracks = { x = \"x_d\" }", "tracks = { x = 0 }", "tracks.x: is a number, 0, and names no reference: state one"),
     ("tracks =", "actuators.delay_s = { u = 0.0005 }\ntracks =", "study.toml: actuators.delay_s.u = 0.0005 s is no"),
     ("tracks =", "sensing.noise = { z = 0.1 }\ntracks =", "study.toml: sensing.noise.z: plant 'mine2026.mass' has no")])
 def test_a_mistake_in_a_file_is_told_by_the_keys_of_files(tmp_path: Path, old: str, new: str, told: str) -> None:

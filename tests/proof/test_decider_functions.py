@@ -12,6 +12,7 @@ from workbench.proof.checker import CertificateError, Context, bounds, check, nu
 from workbench.proof.claim import Goal, Relation, at_least, at_most, equal, greater, saturation
 from workbench.proof.decide.engine import prove_goal
 from workbench.proof.decide.refute import find_counterexample
+from workbench.proof.decide.tangents import _least
 from workbench.proof.derive import Side, Size, unfold
 from workbench.proof.text import text
 
@@ -152,3 +153,10 @@ def test_whatever_is_proved_holds_at_random_points(summands, above, operator, as
     for point in at_points(seed):
         if all(holds(relation, point) for relation in record["assume"]):
             assert all(holds(relation, point) for relation in record["show"])
+
+
+def test_where_an_argument_has_a_pole_no_tangent_begins():
+    """The least margin may lie where an argument is infinite minus infinite: deciding ended with an error there."""
+    x = sp.Symbol("x", real=True)
+    assert not [*_least(x**2, [1 / x - 2 / x - x / x**3, 1 + x], ())]
+    assert [*_least(x**2, [1 + x], ())]

@@ -287,7 +287,7 @@ def test_a_printed_sentence_has_one_full_stop():
     ("t^2 and x_1^2", "t² and x₁²"), ("see proofs/paper.py", None),
     ("rho_knu_hat, 4c_k and W_v*", "ρ̂_{kν}, 4cₖ and Wᵥ*"),
     ("E_{i-1} and e_(i-1)", "Eᵢ₋₁ and eᵢ₋₁"), ("f^a, x' and 'in'", "f^a, x′ and 'in'"), ("exp^(-mu t)", "exp^{−μt}"),
-    ("sum_q omega_q", "∑_q ω_q")])
+    ("sum_q omega_q", "∑_q ω_q"), ("least: pi and eta, not pi_1", "least: pi and η, not π₁")])
 def test_words_keep_their_letters_as_formulas(text, shown):
     assert show(worded(text), plain_formula) == (text if shown is None else shown)
 

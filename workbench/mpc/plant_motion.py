@@ -17,20 +17,28 @@ from workbench.systems.plant import Plant
 from workbench.systems.setting import Setting
 
 Array = NDArray[np.float64]
-LEAST_BASE = 1e-9  # of a root or logarithm in the model: below it neither they nor their slopes are of use to a solver
+LEAST_BASE = 1e-9  # of a root, logarithm or divisor in the model: below it they are of no use to a solver
+
+
+def _free(plant: Plant) -> dict[sp.Symbol, sp.Dummy]:
+    """State to a symbol of which nothing is known: what an observer or a solver tries may be anything."""
+    return {state: sp.Dummy(str(state), real=True) for state in plant.states}
 
 
 def _within_domain(plant: Plant) -> Plant:
-    """The plant with roots and logarithms that go on beyond their domain.
+    """The plant with roots, logarithms and positive divisors that go on beyond their domain.
 
-    An empty tank's root has an endless slope there. The plant itself where none of them can leave its domain. A state
-    that is declared positive is so in the plant; what an observer or a solver tries may be anything.
+    An empty tank's root has an endless slope there, and 1/T changes its sign where T is zero. The plant itself where
+    none of them can leave its domain. A state that is declared positive is so in the plant, not in what is tried.
     """
-    anything = {state: sp.Dummy(str(state), real=True) for state in plant.states}
+    anything = _free(plant)
 
     def leaves(e: sp.Basic) -> bool:
-        return (isinstance(e, sp.log) and not e.args[0].xreplace(anything).is_positive) or (
-            isinstance(e, sp.Pow) and e.exp.is_integer is False and not e.base.xreplace(anything).is_positive)
+        if isinstance(e, sp.log):
+            return not e.args[0].xreplace(anything).is_positive
+        if not isinstance(e, sp.Pow) or e.base.xreplace(anything).is_positive:
+            return False
+        return e.exp.is_integer is False or bool(e.exp.is_negative and e.base.is_positive)
 
     def kept(e: sp.Basic) -> sp.Expr:
         return e.func(sp.Max(e.args[0], sp.Float(LEAST_BASE)), *e.args[1:])
@@ -39,6 +47,13 @@ def _within_domain(plant: Plant) -> Plant:
     if moves == plant.moves:
         return plant
     return replace(plant, updates=moves) if plant.updates else replace(plant, rates=moves)
+
+
+def _overflows(plant: Plant) -> bool:
+    """Whether an exponential of a state in the plant may grow beyond every number."""
+    anything = _free(plant)
+    powers = (e.args[0] for move in plant.moves for e in move.atoms(sp.exp, sp.sinh, sp.cosh))
+    return any(power.free_symbols & {*plant.states} and not power.xreplace(anything).is_nonpositive for power in powers)
 
 
 class PlantMotion:
@@ -56,8 +71,8 @@ class PlantMotion:
 
     @property
     def is_steep(self) -> bool:
-        """Whether a root or logarithm in the plant may come to the edge of its domain, where its slope has no bound."""
-        return self._plant is not self._setting.plant
+        """Whether slopes may have no bound: at the edge of a function's domain, or where an exponential overflows."""
+        return self._plant is not self._setting.plant or _overflows(self._setting.plant)
 
     def known(self, x: Any) -> dict[Any, Any]:
         """What a casadi expression of states and parameters is made with."""

@@ -54,12 +54,13 @@ class KalmanState:
         first = {**known, **how.first_estimate}  # known: states of which there is no doubt, as what lags are
         self._z = np.array([first.get(name, 0.0) for name in names])
         # (state, output): of a measured state of which nothing is stated, the first measurement is the first estimate.
-        self._begins: list[tuple[int, int]] = [
-            (names.index(str(y)), place) for place, (y, value) in enumerate(setting.plant.outputs.items())
-            if value == y and str(y) not in first]
+        self._begins: list[tuple[int, int]] = [  # whatever the output is called
+            (names.index(str(value)), place) for place, value in enumerate(setting.plant.outputs.values())
+            if value in setting.plant.states and str(value) not in first]
         self._moves = np.diag([how.observer.get(name, 0.0) ** 2 for name in names])
         self._P = np.diag([how.first_spread.get(name, how.observer.get(name, 0.0)) ** 2 for name in names])
         self._R = np.diag([setting.noise.get(str(y), 0.0) ** 2 for y in setting.plant.outputs])
+        self._first = self._z.copy(), self._P, tuple(self._begins)
         self.push = np.zeros(self._n)
 
     @property
@@ -68,20 +69,32 @@ class KalmanState:
         return self._z[self._n:]
 
     def now(self, measured: Array, arrived: Sequence[Piece]) -> Array:
-        """The estimate of the state now; arrived: what acted since the last call, nothing at the first one."""
+        """The estimate of the state now; arrived: what acted since the last call, nothing at the first one.
+
+        It begins anew where its numbers overflow: an estimate that is none would stay none for the rest of the run.
+        """
+        with np.errstate(over="ignore", invalid="ignore"):
+            self._move(arrived)
+            if not (np.isfinite(self._z).all() and np.isfinite(self._P).all()):
+                self._z, self._P, self._begins = self._first[0].copy(), self._first[1], [*self._first[2]]
+            self._correct(measured)
+        return self._z[:self._n]
+
+    def _move(self, arrived: Sequence[Piece]) -> None:
         n = self._n
-        while self._begins:
-            state, output = self._begins.pop()
-            self._z[state] = measured[output]
         for u, seconds in arrived:
             A = np.eye(len(self._z))
             A[:n] = self._motion.slopes(self._z[:n], u, self._z[n:], seconds)
             self._z = np.concatenate([self._motion(self._z[:n], u, self._z[n:], seconds), self._z[n:]])
             self._P = A @ self._P @ A.T + seconds * self._moves
+
+    def _correct(self, measured: Array) -> None:
+        while self._begins:
+            state, output = self._begins.pop()
+            self._z[state] = measured[output]
         expected, C = self._motion.measured(self._z)
         # What is measured without noise and known without doubt has no weight: the pseudo-inverse leaves it out.
         K = self._P @ C.T @ np.linalg.pinv(C @ self._P @ C.T + self._R, hermitian=True)
         self._z = self._z + K @ (measured - expected)
         left = np.eye(len(self._z)) - K @ C
         self._P = left @ self._P @ left.T + K @ self._R @ K.T
-        return self._z[:n]

@@ -28,9 +28,9 @@ class PlantMpcValues:
     from sample to sample; objective: of the setting's metrics, what they add to what is minimised (economic MPC);
     rate_limits: of an input, per second; excess_price: of a limited state's excess, per unit and per unit squared;
     disturbance_gain: of the filter that makes constant errors vanish, at most 1, none where 0; substeps: Runge-Kutta
-    steps a sample. solver: fatrop, or ipopt, which knows no structure; both to convergence. Where a root or
-    logarithm of the plant may come to the edge of its domain ipopt takes the place of fatrop, with bounded steps.
-    one_iteration: one
+    steps a sample. solver: fatrop, or ipopt, which knows no structure; both to convergence. Where a root,
+    logarithm or divisor of the plant may come to the edge of its domain, or an exponential overflow, ipopt takes the
+    place of fatrop, with bounded steps. one_iteration: one
     quadratic program a sample, along the last plan, instead, and some at the first one. observer: of states and
     disturbances, the standard deviation of what moves them beyond the model in a second; an extended Kalman filter then
     estimates the state, and the named disturbances, from the outputs. It begins at first_estimate (where none is given

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -171,6 +172,7 @@ def _summary(asked: Request, line: Line, vehicle: Vehicle, found: Reference,
                f"{_with_stops(stops, asked.dwell_s)}; the least feasible is "
                f"{found.least_time_s + asked.dwell_s * len(stops):.1f} s")
         yield from _early(asked, found, asked.dwell_s * len(stops))
+    yield from _line_as_read(line, found)
     yield (f"energy        {found.energy_j / KWH_J:.3f} kWh, any run takes at least "
            f"{found.lower_bound_j / KWH_J:.3f} kWh: gap {100 * found.gap:.3f} %, {found.status}")
     if found.waits_j:
@@ -183,6 +185,25 @@ def _summary(asked: Request, line: Line, vehicle: Vehicle, found: Reference,
     yield (f"simulated     {check.energy_j / KWH_J:.3f} kWh; drift {check.position_drift_m:.2g} m, "
            f"{check.speed_drift_mps:.2g} m/s under corrections up to {check.correction_n:.2g} N; forces "
            f"{_kept(check.force_excess)}, speed {check.speed_excess_mps:.2g} m/s beyond its limit")
+
+
+def _line_as_read(line: Line, found: Reference) -> Iterator[str]:
+    """What was read of the line and how fast the run is, in the units that timetables have: a wrong one is seen."""
+    grades, limits = ([value for _, value in rows] for rows in (line.grades, line.limits))
+    said = [f"grades {_from_to(f'{min(grades):g}', f'{max(grades):g}')} per mille"]
+    stated = [limit for limit in limits if limit < math.inf]
+    if stated:
+        said.append(f"limits {_from_to(_kmh(min(stated)), _kmh(max(stated)))} km/h")
+    top, mean = float(found.profile.speed_mps.max()), found.profile.course.length_m / found.profile.trip_time_s
+    yield f"line          {', '.join(said)}; the run at most {_kmh(top)} km/h, {_kmh(mean)} km/h on average"
+
+
+def _from_to(least: str, most: str) -> str:
+    return least if least == most else f"{least} to {most}"
+
+
+def _kmh(speed_mps: float) -> str:
+    return f"{3.6 * speed_mps:.3g}"
 
 
 def _early(asked: Request, found: Reference, waited_s: float) -> Iterator[str]:

@@ -21,7 +21,7 @@ _POWER = re.compile(r"(?<![\w$\\{])([A-Za-z])\^(\d|[a-z])(?!\w)")
 # A Greek letter that has an index or is one: its name is what letters are made of.
 _GREEK_SIGN = re.compile(r"(?<![A-Za-z])[α-ω](?=_[A-Za-z0-9])|(?<=[A-Za-z0-9]_)[α-ω](?!\w)")
 _SHORT = {"eps": "varepsilon"}
-_WORDS = ("Re", "Im", "ell", "wp", "partial")  # words, before they are letters
+_WORDS = ("Re", "Im", "ell", "wp", "partial", "pi")  # words, or as pi a controller, before they are letters
 _NAMES = "|".join(sorted((name for name in GREEK if name not in _WORDS), key=len, reverse=True))
 _INDEXED = re.compile(rf"(?<![\w.$\\{{])({_NAMES}|eps|sum|[A-Za-z])_(?:\{{([^{{}}$]+)\}}|\(([^()$]+)\))")
 # A Greek letter or a single one with its accent in words, such as W-tilde, where no claim's number goes on with it.

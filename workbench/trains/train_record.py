@@ -8,8 +8,8 @@ from pydantic import Field, Strict, model_validator
 
 from workbench.files.toml import Positive, SourcedRecord
 
-# A train that resists with more than 10 m/s^2 at standstill or at 1 m/s has its coefficients in another unit.
-DavisCoefficient = Annotated[float, Strict(), Field(ge=0, le=10, allow_inf_nan=False)]
+DavisCoefficient = Annotated[float, Strict(), Field(ge=0, allow_inf_nan=False)]
+SLOW_MPS, RESISTS_MPS2 = 10.0, 10.0  # a train that resists with more at that speed has its coefficients in another unit
 
 
 class Train(SourcedRecord):
@@ -39,6 +39,12 @@ class Train(SourcedRecord):
             if not 0.01 <= specific <= 20:
                 raise ValueError(f"{name} gives {specific:g} m/s^2 for this mass, outside 0.01 to 20: "
                                  f"is it in kN?")
+        a, b, c = self.davis_a_mps2, self.davis_b_per_s, self.davis_c_per_m
+        resists = a + b * SLOW_MPS + c * SLOW_MPS**2
+        if resists > RESISTS_MPS2:
+            raise ValueError(f"davis_a_mps2, davis_b_per_s and davis_c_per_m give {resists:.3g} m/s^2 at "
+                             f"{SLOW_MPS:g} m/s, more than {RESISTS_MPS2:g}: are they in N? They are per unit of mass: "
+                             "divide by mass_kg")
         if self.max_power_w is not None and not 0.1 <= self.max_power_w / self.mass_kg <= 1e3:
             raise ValueError(f"max_power_w gives {self.max_power_w / self.mass_kg:g} W/kg for this mass, "
                              f"outside 0.1 to 1000: is it in kW?")

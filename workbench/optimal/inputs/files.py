@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from workbench.trains.track import Track
 
 Notes = tuple[str, ...]
+LEAST_STEEPEST = 0.2  # per mille: a line none of whose grades is steeper has them in another unit, or none
 
 
 def load_line(path: Path) -> tuple[Line, Notes]:
@@ -86,7 +87,11 @@ def from_track(track: Track) -> tuple[Line, Notes]:
     """A line of this project's own format, with the curve resistance 600/R, and notes."""
     from workbench.optimal.inputs.line import Line, Tunnel  # noqa: PLC0415 - as said above
 
-    notes = () if track.speed_limit else (f"line '{track.name}' states no speed limit: the train's own holds",)
+    notes = [] if track.speed_limit else [f"line '{track.name}' states no speed limit: the train's own holds"]
+    steepest = max(abs(section.grade_permille) for section in track.grade)
+    if 0 < steepest < LEAST_STEEPEST:
+        notes.append(f"no grade of line '{track.name}' is above {steepest:g} per mille: are they ratios, and not per "
+                     "mille?")
     return Line(
         name=track.name, length_m=track.length_m, stops_m=track.stops_m or (0.0, track.length_m),
         limits=tuple((s.start_m, s.speed_mps) for s in track.speed_limit) or ((0.0, float("inf")),),
@@ -94,7 +99,7 @@ def from_track(track: Track) -> tuple[Line, Notes]:
         curves=tuple((s.start_m, 1 / s.radius_m, 1 / s.radius_m) for s in track.curve),
         tunnels=tuple(Tunnel(s.start_m, s.end_m - s.start_m, None, s.resistance_n_per_kn) for s in track.tunnel),
         curve_rule="inverse_radius",
-    ), notes
+    ), tuple(notes)
 
 
 def _assumed(train: TrainFile) -> Notes:

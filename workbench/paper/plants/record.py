@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import Discriminator, Field, Strict, Tag, model_validator
+from pydantic import BeforeValidator, Discriminator, Field, Strict, Tag, model_validator
 
 from workbench.files.toml import Count, Name, NonNegative, Number, Positive, SourcedRecord, Text
 from workbench.model.tuning import Searched, Seed
@@ -15,6 +15,17 @@ from workbench.systems.signals import Signal
 MPC = ("mpc.tracking", "mpc.economic")
 Values = dict[str, Number]
 Weights = dict[str, NonNegative]
+
+
+def _reference_named(value: object) -> object:
+    """What is tracked, which a newcomer may give as a number; ValueError then."""
+    if isinstance(value, int | float):
+        raise ValueError(f"is a number, {value:g}, and names no reference: state one, such as reference.rest = "
+                         f"{{ kind = 'constant', value = {float(value)} }}, and name it here")
+    return value
+
+
+Tracked = Annotated[Text, BeforeValidator(_reference_named)]
 
 
 class LawEntry(SourcedRecord):
@@ -116,7 +127,7 @@ class PlantStudy(Study):
     initial: Values = Field(default_factory=dict)
     reference: dict[Name, Signal] = Field(default_factory=dict)
     disturbance: dict[Text, Signal] = Field(default_factory=dict)
-    tracks: dict[str, Text] = Field(default_factory=dict)
+    tracks: dict[str, Tracked] = Field(default_factory=dict)
     sensing: Sensing = Sensing()
     actuators: Actuators = Actuators()
     controllers: Annotated[dict[Name, Controller], Field(min_length=1)]

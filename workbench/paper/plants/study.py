@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 from workbench.errors import CompileError, InputError
@@ -14,9 +15,12 @@ from workbench.paper.results import Curve, Plot, ResultTable, StudyResult, thinn
 from workbench.paper.study import Progress, StudyKind
 from workbench.simulate.plants.run import PlantRun
 from workbench.simulate.plants.run import run as run_plant
+from workbench.simulate.plants.step_length import shortest_time
 from workbench.systems.setting import Setting
 from workbench.systems.signals import Constant
 from workbench.tasks.handing_out import results_of
+
+SLIGHT = 0.01  # of what lies between the limits of a state: further beyond them a run does not keep them
 
 
 def run(study: LocatedPlantStudy, workers: int, on_progress: Progress) -> StudyResult:
@@ -82,22 +86,58 @@ def _desired(run: PlantRun, channel: str) -> Curve:
 
 def _findings(setting: Setting, runs: Sequence[PlantRun]) -> Iterator[str]:
     """Who is best in each metric of tracking, and who failed; ties by the last digit shown are said as such."""
+    kept = [run for run in runs if not _beyond(setting, run)]
+    among = " within the plant's limits" if 0 < len(kept) < len(runs) else ""
     for output in setting.tracks:
-        values = {run.name: value for run in runs if (value := run.metrics.get(f"{output}_error_rms")) is not None}
+        values = {run.name: value for run in (kept or runs)
+                  if (value := run.metrics.get(f"{output}_error_rms")) is not None}
         if len(values) > 1:
             best = min(values.values())
             least = [name for name, value in values.items() if number(value) == number(best)]
             unit = next((unit_text(m.unit) for m in setting.every_metric if m.id == f"{output}_error_rms"), "")
-            yield f"RMS error of {output}, least: {' and '.join(least)}, {number(best)} {unit}".rstrip() + "."
+            yield f"RMS error of {output}, least{among}: {' and '.join(least)}, {number(best)} {unit}".rstrip() + "."
     moving = any(not isinstance(setting.references[channel], Constant) for channel in setting.tracks.values())
     for run in runs:
         if run.ahead_s and moving:
             yield f"{run.name} is told the references {number(run.ahead_s)} s ahead; laws are told what they are."
         if run.failed:
             yield f"{run.failed}."
+        if beyond := _beyond(setting, run):
+            yield f"{run.name} goes beyond the plant's limits: {', '.join(beyond)}."
         if run.fallbacks:
             yield (f"The solver of {run.name} gave nothing usable at {run.fallbacks} "
                    f"sample{'s' * (run.fallbacks > 1)}; its last plan went on there.")
+        if run.step_us > run.period_s * 1e6:
+            yield (f"A step of {run.name} took {number(run.step_us / 1e6)} s here, longer than its period of "
+                   f"{number(run.period_s)} s: on this computer it would not keep up.")
+        yield from _inaccurate(setting, run)
+
+
+def _beyond(setting: Setting, run: PlantRun) -> list[str]:
+    """The states by which a run goes beyond the plant's limits by more than a hair of what lies between them, in
+    words."""
+    found = []
+    for state, limits in setting.plant.state_limits.items():
+        excess = run.metrics.get(f"{state}_limit_excess") or 0.0
+        ends = [end for end in limits if math.isfinite(end)]
+        if excess > SLIGHT * (max(ends) - min(ends) if len(ends) > 1 else abs(ends[0]) if ends else math.inf):
+            found.append(f"{state} by {number(excess)} {unit_text(setting.plant.units.get(state, ''))}".rstrip())
+    return found
+
+
+def _inaccurate(setting: Setting, run: PlantRun) -> Iterator[str]:
+    """That a run's step was too long for its numbers to be right, though it came to an end."""
+    found = shortest_time(setting, run) if setting.integrator == "rk4" and not setting.plant.updates else None
+    if found is not None and found[0] < setting.step_s:
+        yield (f"The numbers of {run.name} are not accurate: at t = {number(found[1])} s the plant has a time constant "
+               f"of {number(found[0])} s, shorter than its integration step of {number(setting.step_s)} s. Give "
+               f"plant_step_s = {_round_down(found[0] / 5):g} or less, or the integrator 'radau'.")
+
+
+def _round_down(value: float) -> float:
+    """The largest of 1, 2 and 5 times a power of ten that is no more than a positive value."""
+    exponent = math.floor(math.log10(value))
+    return float(f"{max(d for d in (1, 2, 5) if d <= value / 10.0**exponent * (1 + 1e-12))}e{exponent}")
 
 
 def _winners(setting: Setting, runs: Sequence[PlantRun]) -> ResultTable | None:
@@ -108,13 +148,14 @@ def _winners(setting: Setting, runs: Sequence[PlantRun]) -> ResultTable | None:
     for output in setting.tracks:
         key = f"{output}_error_rms"
         ranked = sorted((run for run in runs if not run.failed and run.metrics.get(key) is not None),
-                        key=lambda run: abs(run.metrics[key] or 0.0))
+                        key=lambda run: (bool(_beyond(setting, run)), abs(run.metrics[key] or 0.0)))
         if len(runs) < 2 or not ranked:
             continue
         best, *others = ranked
         failed = [f"{run.name} fails" for run in runs if run.failed]
-        words = "; ".join([f"{run.name} {{}}" for run in others] + failed)
-        rows.append((output, best.name, Quantity(best.metrics[key], units[key]),
+        beyond = {run.name: " beyond the limits" if _beyond(setting, run) else "" for run in ranked}
+        words = "; ".join([f"{run.name} {{}}{beyond[run.name]}" for run in others] + failed)
+        rows.append((output, f"{best.name}{beyond[best.name]}", Quantity(best.metrics[key], units[key]),
                      Phrase(words, tuple(Quantity(run.metrics[key], units[key]) for run in others)) if words else None,
                      *(Quantity(best.metrics[effort], units[effort]) for effort in efforts), best.step_us))
     header: tuple[Column | str, ...] = (

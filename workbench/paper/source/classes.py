@@ -8,6 +8,7 @@ from fractions import Fraction
 from functools import lru_cache
 
 from workbench.paper.source import forms, vocabulary
+from workbench.paper.source.bounds import bounded_in
 from workbench.paper.source.letters import kinds_in, values_and_rates
 from workbench.paper.source.passages import Word
 from workbench.proof.latex.error import LatexError
@@ -83,7 +84,7 @@ def _class_of(line: Line, formula: str, real: bool) -> str:
         return forms.NONZERO
     if all(map(_is_letter, heads)) and len([*kinds_in(formula)]) == len(heads):
         return forms.SIGN
-    return _relation_class(formula, len(line.chains))
+    return forms.BOUND if bounded_in(formula) else _relation_class(formula, len(line.chains))
 
 
 def _relation_class(formula: str, chains: int) -> str:

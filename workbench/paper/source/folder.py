@@ -12,6 +12,8 @@ from workbench.errors import InputError
 from workbench.files.text import read_text
 from workbench.files.writing import write_text, write_tree
 from workbench.paper.new_paper import new_folder
+from workbench.paper.source.bounded import bounds_said, unclear_bounds
+from workbench.paper.source.bounds import bounded_in
 from workbench.paper.source.deciding import (
     as_read,
     doubted,
@@ -32,7 +34,7 @@ from workbench.paper.source.lines import ENDS_WITH_RELATION, system_lines
 from workbench.paper.source.macros import SourceError, without_comments
 from workbench.paper.source.reading import MOVE
 from workbench.paper.source.roles import with_roles
-from workbench.paper.source.row import Row
+from workbench.paper.source.row import Row, with_numbers
 from workbench.paper.source.shown import Standing
 from workbench.proof.latex.rows import (
     ROWS,
@@ -129,11 +131,23 @@ def rows_and_letters(found: Source) -> tuple[list[RowEntry], dict[str, LetterEnt
     rows = with_roles(_with_text([entry for _, entry in made], facts, found.said.limits()), standing, {
         entry.id: row for row, entry in made if row.what == "Equation"}, functions_in(found.text))
     rows = [as_read(row, standing.get(row.id)) for row in rows]
-    letters = letters_with_what_follows(rows, facts, found.text)
+    limits = found.said.limits()
+    bounded = [RowEntry(id=f"bound{number}", title=f"Bound {number} in the text", role="assumption", printed=formula)
+               for number, formula in enumerate(bounds_said(facts), len(limits) + 1)]
+    said = letters_with_what_follows([*bounded, *rows], facts, found.text)
+    unclear = unclear_bounds(facts, [row.printed for row in bounded],
+                             [letter for letter, entry in said.items() if entry.role == "constant"])
+    rows = [*(row for row in bounded if not {*bounded_in(row.printed)} & unclear), *rows]
+
+    def table() -> dict[str, LetterEntry]:
+        known = letters_with_what_follows(rows, facts, found.text)
+        return known | {letter: LetterEntry() for letter in unclear & {*known}}
+
+    letters = table()
     while unreadable := first_unreadable(tuple(rows), letters):
         left = {"role": "words", "unread": f"'{unreadable[1]}'"}
         rows = [row.model_copy(update=left) if row.id == unreadable[0] else row for row in rows]
-        letters = letters_with_what_follows(rows, facts, found.text)
+        letters = table()
     return rows, letters, standing
 
 
@@ -154,7 +168,7 @@ def _with_inputs(text: str, source: Path, depth: int = 0) -> str:
 
 def entries(row: Row, source: Source) -> list[RowEntry]:
     """A row as it stands in the table; a formula of cases is one row for each case, under its condition."""
-    title = f"{row.what} {row.number or 'without a number'}" if row.what == "Equation" else (
+    title = (f"Equation ({row.number})" if row.number else "Equation without a number") if row.what == "Equation" else (
         f"{row.what} {row.number}".strip() + (f": {row.title}" if row.title else ""))
     def kept(one: Row) -> bool:
         return source.said.kept(one.labels, one.number)
@@ -172,7 +186,8 @@ def entries(row: Row, source: Source) -> list[RowEntry]:
                     if is_assumption(row.what) and source.said.understood(*row.span) and kept(row)]
         rests = tuple(dict.fromkeys((*row.rests_on, *(one.id for one in formulas),
                                      *(one for one in inside if row.id not in _of(source, one)))))
-        return [whole.model_copy(update={"role": "words", "rests_on": rests}), *formulas]
+        printed = with_numbers(row.printed, source.rows) or row.what
+        return [whole.model_copy(update={"role": "words", "printed": printed, "rests_on": rests}), *formulas]
     if row.within in assumed:
         stands = not on_condition(assumed[row.within].printed) and kept(assumed[row.within])
         return [whole.model_copy(update={"role": "assumption" if stands else "words"})]

@@ -1,8 +1,8 @@
 r"""The forms of sentences that are read, and how formulas stand in them.
 
 In rules, LETTERS is a formula of letters alone, `$k, c$`; REAL one that only says what numbers they are, `$x \in
-\mathbb{R}$`; SIGN one that says their sign, `$k > 0$`; RELATION any other relation; VALUE any other expression; TIME
-one of the time alone; DISPLAY a displayed formula.
+\mathbb{R}$`; SIGN one that says their sign, `$k > 0$`; BOUND one between which numbers they lie, `$0 < a < 1$`, and a
+RELATION too, as any other; VALUE any other expression; TIME one of the time alone; DISPLAY a displayed formula.
 """
 
 from __future__ import annotations
@@ -14,10 +14,11 @@ from workbench.paper.source.phrases import Grammar
 
 DISPLAY, REFERENCE = "$$", "#"
 LETTERS, REAL, SIGN, DEFINES, RELATION = "$letters", "$real", "$sign", "$defines", "$relation"
-MOVES, TENDS, NONZERO = "$moves", "$tends", "$nonzero"
+MOVES, TENDS, NONZERO, BOUND = "$moves", "$tends", "$nonzero", "$bound"
 VALUE, TIME = "$value", "$time"
-KINDS = {"LETTERS": (LETTERS,), "REAL": (REAL,), "SIGN": (SIGN,), "RELATION": (RELATION, DEFINES, MOVES, NONZERO),
-         "LIMIT": (RELATION,), "MOVES": (MOVES,), "TENDS": (TENDS,), "NONZERO": (NONZERO,), "VALUE": (VALUE,),
+KINDS = {"LETTERS": (LETTERS,), "REAL": (REAL,), "SIGN": (SIGN,),
+         "RELATION": (RELATION, DEFINES, MOVES, NONZERO, BOUND), "LIMIT": (RELATION, BOUND), "BOUND": (BOUND,),
+         "MOVES": (MOVES,), "TENDS": (TENDS,), "NONZERO": (NONZERO,), "VALUE": (VALUE,),
          "DEFINES": (DEFINES,), "TIME": (TIME,), "DISPLAY": (DISPLAY,), "REF": (REFERENCE,),
          "VALUES": (LETTERS, VALUE, REFERENCE)}
 # What is told of a sentence: where it states facts, what it claims, gives, defines or supposes, and what restricts it.
@@ -153,7 +154,9 @@ limit = LIMIT [and LIMIT]*
 unsigned = <list> <be> not <adjectives> | <list> <be> <kind>? [positive | negative] [definite | semidefinite]
 fact = <list> <be> <kind> | <kind> <list> | <kind> <list> <be> <kind> | <kind> <list> vary | <kind> <be> <list> |
     <kind> <be> <adjectives> | <list> <be> <adjectives> | <list> | <list> <kind> | <list> vary | <list> [as | for]
-    <kind> | <kind> <list> <be> <adjectives>
+    <kind> | <kind> <list> <be> <adjectives> | <kind> <ranged> |
+    BOUND <be> <kind> | <ranged> [are | be | being | denote | represent | designate] <kind>
+ranged = [<letter> [, | and | , and]]* BOUND [[, | and | , and] [BOUND | <letter>]]*
 both = <list> <be> <kind> [, <kind>]* ,? and <kind> , respectively
 list = <letter> [[, | and | , and] <letter>]*
 letter = LETTERS | REAL | SIGN | TIME | NONZERO

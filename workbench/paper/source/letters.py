@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from workbench.paper.source.bounds import bounded_in
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.parts import parted
 from workbench.proof.latex.read import read_line
@@ -40,8 +41,8 @@ _ARE_POSITIVE = re.compile(
     r"(?:constants?|gains?|numbers?|scalars?|parameters?)\b", re.IGNORECASE)
 _ARE_CONSTANTS = re.compile(
     _LIST + r"\s*(?:be|are|is)\s+(?:an?\s+|all\s+|some\s+|the\s+)?"
-    r"(?:(?:(?:positive|nonnegative|real|known|unknown|design|control|feedback|observer|adaptation|tuning)\s+)*"
-    r"(?:constants?|gains?|parameters?)\b"
+    r"(?:(?:(?:positive|nonnegative|real|known|unknown|design|control|controller|feedback|observer|filter|adaptation|"
+    r"tuning)\s+)*(?:constants?|gains?|parameters?|(?<=filter )bandwidth|(?<=observer )bandwidth)\b"
     r"|(?!piecewise|locally|almost|nearly|slowly|not|no)[a-z-]+\s+constants?(?=[\s]*(?:[,.;]|and\b|of\b|\Z)))",
     re.IGNORECASE)
 _INPUTS = re.compile(r"\b(?:disturbances?|inputs?|references?)\b[^.,;:$]{0,30}" + _LIST, re.IGNORECASE)
@@ -65,7 +66,7 @@ _DEFINING = re.compile(r"\b(?:(?:let|defin(?:e|ing)|denot(?:e|ing)|introduc(?:e|
 _ENVIRONMENT = re.compile(r"\\begin\s*\{((?!def)\w+\*?)\}.*?\\end\s*\{\1\}", re.DOTALL)  # a Definition is kept
 _SENTENCE = re.compile(r"(?<=[.!?;])\s|\\(?:begin|end)\s*\{[^{}]*\}|\\(?:item|(?:sub)*section)|\n\s*\n|\\[\[\]]|\$\$")
 # A sentence with one of these says of no letter that it has a sign everywhere, or is constant.
-_NOT_EVERYWHERE = re.compile(
+NOT_EVERYWHERE = re.compile(
     r"\b(?:if|when|whenever|while|until|unless|provided|cases?|either|n?or|neither|not|whether|suppose|then|may|might|"
     r"could|can|would|should|follow\w*|hence|thus|therefore|impl(?:y|ies)|yields?|since|because|sets?(?!-)|region|domain|"
     r"(?:in|out)side|instance|example|show\w*|prove\w*|conclude\w*|near|small|large|initially|first|once)\b|\bas\s*\$",
@@ -94,7 +95,7 @@ def says_sign(fact: str) -> bool:
     """Whether a fact says a sign, by a word or a formula."""
     formulas = [(inline[1] or inline[2]).strip(" .,;") for inline in INLINE.finditer(fact)]
     return "positive" in fact or "negative" in fact or any(
-        kind != "real" for formula in formulas for _, kind in kinds_in(formula))
+        kind != "real" for formula in formulas for _, kind in kinds_in(formula)) or any(map(bounded_in, formulas))
 
 
 def signed_by_words(fact: str) -> set[str]:
@@ -214,9 +215,9 @@ def valued_elsewhere(text: str) -> Iterator[str]:
 def _named(pattern: re.Pattern[str], text: str) -> Iterator[str]:
     """The letters in the list of formulas that some words stand before."""
     for found in pattern.finditer(text):
-        sentence = _around(text, found.start(), found.end())
+        sentence = around(text, found.start(), found.end())
         near = text[max(found.start() - 40, 0):found.end()] + text[found.end():found.end() + 30].partition(",")[0]
-        if (pattern is not _INPUTS and _NOT_EVERYWHERE.search(sentence)) or (
+        if (pattern is not _INPUTS and NOT_EVERYWHERE.search(sentence)) or (
                 pattern is _CONSTANTS and _VARIES.search(near)):
             continue
         for inline in INLINE.finditer(found[1]):
@@ -224,7 +225,7 @@ def _named(pattern: re.Pattern[str], text: str) -> Iterator[str]:
             yield from letters_of_text(_RELATION.split(formula)[0] if pattern is _INPUTS else formula)
 
 
-def _around(text: str, start: int, end: int) -> str:
+def around(text: str, start: int, end: int) -> str:
     """The sentence in which a piece of a text stands."""
     before, behind = text[max(start - _REACH, 0):start], text[end:end + _REACH]
     return f"{_SENTENCE.split(before)[-1]} {text[start:end]} {_SENTENCE.split(behind)[0]}"
@@ -246,9 +247,11 @@ def printed_of_time(text: str, rows: list[RowEntry]) -> set[str]:
 def _kinds(text: str) -> Iterator[tuple[str, str]]:
     r"""Letters whose sign a formula in the text says, as `k, c > 0`, or that they are real, as `x \in \mathbb{R}`."""
     for inline in INLINE.finditer(text):
-        conditional = _ON_CONDITION.search(text[:inline.start()]) is not None or _NOT_EVERYWHERE.search(
-            _around(text, inline.start(), inline.end())) is not None
-        for letter, kind in kinds_in((inline[1] or inline[2]).strip(" .,;")):
+        conditional = _ON_CONDITION.search(text[:inline.start()]) is not None or NOT_EVERYWHERE.search(
+            around(text, inline.start(), inline.end())) is not None
+        formula = (inline[1] or inline[2]).strip(" .,;")
+        positive = [(letter, kind) for letter, kind in bounded_in(formula).items() if kind == "positive"]
+        for letter, kind in (*kinds_in(formula), *positive):
             if kind == "real" or not conditional:
                 yield letter, kind
 

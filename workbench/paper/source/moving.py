@@ -31,7 +31,7 @@ LIKE = _words("""
     mass-spring strict-feedback control-affine affine integrator water liquid heat stirred well-stirred batch
     underactuated wheeled mobile magnetic rigid bilinear autonomous nonautonomous time-varying uncertain
     two-tank coupled-tank single-input single-state two-state stirred-tank cascade freight passenger high-speed
-    railway lumped electronic
+    railway lumped electronic interconnected
     state-space input-output governing
 """)
 # The loop of the plant and its law.

@@ -15,7 +15,7 @@ from types import MappingProxyType
 
 from workbench.paper.source import forms, narrowing, things, understood, vocabulary
 from workbench.paper.source.classes import classes_of, formula_class
-from workbench.paper.source.given import letter_of
+from workbench.paper.source.given import RATE, letter_of
 from workbench.paper.source.idioms import plainly
 from workbench.paper.source.passages import Sentence, Word
 from workbench.paper.source.plain import described, exchanges, letters_within, neutral, revalued
@@ -103,7 +103,7 @@ def _read(words: Sequence[Word], body: str, assuming: bool, given: Collection[st
     taken = {*range(len(texts))}.difference(*(range(start, end) for rule, start, end in found or ()
                                               if rule in ("fact", "bounded", "limit", "moved")))
     bound = [words[at].text for at in sorted(taken) if classes[at] in (
-        forms.SIGN, forms.RELATION, forms.MOVES, forms.NONZERO)]
+        forms.SIGN, forms.RELATION, forms.MOVES, forms.NONZERO, forms.BOUND)]
     return _whole(said, texts, [text if at in taken else "" for at, text in enumerate(texts)], bound, giving)
 
 
@@ -131,6 +131,10 @@ def _whole(said: Reading, texts: Sequence[str], taken: Sequence[str], bound: Seq
     of a part of the motion alone. taken: its words but those that say what letters are; bound: its relations."""
     given = {letter for number, form in said.shown.items() if form in GIVING
              for letter in giving.get(number, ())} or {fact for fact in said.facts if fact.startswith((DEFINE, MOVE))}
+    if given and all(letter.startswith("\\") and not letter.startswith(RATE) for letter in given):
+        # Of backstepping: a letter of its own, and no input of a plant, which no paper calls by a Greek letter.
+        taken = [text for text, behind in zip(taken, (*taken[1:], ""), strict=True)
+                 if text != "virtual" or behind not in things.LAWS]
     if said.shown or given:
         odd = understood.not_understood(taken, not given, any(map(understood.is_marked, given))) or (
             (*bound, *(_STRANGERS & {*texts})) if given else narrowing.in_coordinates(texts))
@@ -218,7 +222,7 @@ def _loose(classes: Sequence[str]) -> bool:
     """Whether a sentence is made of words alone that claim what it shows, in whatever form; what stands before
     "implies" may be a condition."""
     plain = (forms.LETTERS, forms.REAL, forms.VALUE, forms.TIME, forms.REFERENCE, forms.SIGN, forms.RELATION,
-             forms.DEFINES, forms.DISPLAY, ",", ":", ";")
+             forms.BOUND, forms.DEFINES, forms.DISPLAY, ",", ":", ";")
     if not all(one in forms.LOOSE or one in plain for one in classes):
         return False
     pairs = [*pairwise(classes)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 
@@ -31,6 +32,20 @@ class Row:
     remark: bool = False
     referred: list[str] = field(default_factory=list)
     rests_on: tuple[str, ...] = ()
+
+
+_REFERENCE = re.compile(r"\\(eqref|ref)\s*\{([^{}]*)\}")
+
+
+def with_numbers(text: str, rows: Iterable[Row]) -> str:
+    r"""A text with the numbers that LaTeX prints for its references, `\eqref{x}` as (1); one to nothing stays."""
+    numbers = {label: row.number for row in rows for label in row.labels if row.number}
+
+    def printed(found: re.Match[str]) -> str:
+        number = numbers.get(found[2])
+        return found[0] if number is None else f"({number})" if found[1] == "eqref" else number
+
+    return _REFERENCE.sub(printed, text).replace("~", " ")
 
 
 def resolve(rows: list[Row], groups: dict[str, list[str]]) -> None:

@@ -41,6 +41,7 @@ OF_ERRORS = _words("""
     tracking regulation estimation observation observer parameter position speed velocity level temperature current
     voltage angle altitude heading attitude state output formation spacing synchronization sliding switching new
     filtered filtered-error combined integral control following sliding-mode adaptation input approximation scalar
+    normalized normalised transformed scaled weighted consensus compensated
 """)
 # Numbers that a formula may give.
 NUMBERS = _words("gain gains parameter parameters constant constants coefficient coefficients number numbers scalar "
@@ -52,7 +53,8 @@ UPDATES = _words("adaptation update learning tuning adaptive parameter estimatio
 
 # What acts from outside.
 SIGNALS = _words("disturbance disturbances uncertainty uncertainties perturbation perturbations noise signal signals")
-OF_SIGNALS = _words("external exogenous lumped matched bounded unknown constant known scalar load parametric input new")
+OF_SIGNALS = _words("external exogenous lumped matched bounded unknown constant known scalar load parametric input new "
+                    "compensating")
 
 HEADS = (moving.PLANTS | moving.LOOPS | moving.QUANTITIES | moving.BESIDE | moving.FILTERS | moving.ALONG | LAWS
          | FUNCTIONS | ERRORS | NUMBERS | SIGNALS)
@@ -66,5 +68,5 @@ KINDS = (
     (NUMBERS, NUMBERS | OF_NUMBERS), (SIGNALS, SIGNALS | OF_SIGNALS),
     (moving.BESIDE, OF_ERRORS | moving.LIKE | _words(
         "luenberger linear high-gain disturbance gradient least-squares adaptive")),
-    (moving.FILTERS, moving.LIKE | {"low-pass"}))
+    (moving.FILTERS, moving.LIKE | {"low-pass", "command"}))
 OF_THEM = frozenset().union(*(kinds for _, kinds in KINDS))

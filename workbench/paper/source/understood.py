@@ -52,6 +52,7 @@ _HEADINGS = _words("""
     controlled setup synthesis notation notations background backstepping sliding mode adaptive passivity digital
     discrete-time on-board action anti-windup event-triggered iss input-to-state observer reference
     controller law laws stabilisation performance exercise solution day week
+    interconnection interconnected small-gain prescribed funnel command-filtered
 """)
 # By these a sentence without formulas changes what was given, or speaks of a part of it.
 _TURNS = _words("""
@@ -77,7 +78,7 @@ _MOTIONS = _words("dynamics motion equation equations trajectories trajectory so
 
 def is_marked(letter: str) -> bool:
     r"""Whether a letter, or its rate, bears a mark by which it is none of the plant's, as `\\hat x` and `x_m`."""
-    return letter in ("r", "w") or letter.startswith(r"\alpha") or _MARK.search(letter) is not None
+    return letter in ("r", "w") or _MARK.search(letter) is not None
 
 
 def not_understood(texts: Sequence[str], claims: bool, marked: bool) -> tuple[str, ...]:
@@ -103,7 +104,7 @@ def _odd(texts: Sequence[str], known: Collection[str], beside: bool) -> tuple[st
         held |= {*range(start, end)}
     for at, text in enumerate(texts):
         behind = texts[at + 1] if at + 1 < len(texts) else ""
-        if text and at not in held and text not in known and not (beside and text == "virtual") and not _goes_with(
+        if text and at not in held and text not in known and not _goes_with(
                 text, texts[at - 1] if at else "", behind):
             odd[text] = None
     return tuple(odd)
@@ -137,8 +138,7 @@ def _misplaced(texts: Sequence[str], start: int, end: int, beside: bool) -> Iter
     thing, before = texts[end - 1], texts[start - 1] if start else ""
     kinds = frozenset().union(*(kinds for heads, kinds in things.KINDS if thing in heads))
     yield from (text for text in texts[start:end - 1] if text not in kinds)
-    if before and before not in _BEFORE and not (beside and before == "virtual") and not (
-            thing in _SEVERAL and before in vocabulary.ALL):
+    if before and before not in _BEFORE and not (thing in _SEVERAL and before in vocabulary.ALL):
         yield before
     if not beside and thing not in things.ERRORS | things.NUMBERS:
         yield from moving.BESIDE & {*texts[start:end]}

@@ -81,8 +81,8 @@ MODIFIERS = _words("""
   prescribed sampled switched hybrid uncertain coupled cascaded second-order first-order third-order single-input
   continuous-time lyapunov control-lyapunov energy storage candidate sliding cross definite semidefinite left-hand
   right-hand left right proportional integral derivative reference two three four finite physical mathematical
-  dimensionless normalized inertial magnetic electric switching standing nonholonomic underactuated planar
-  unmeasured unmeasurable unmodelled unmodeled manipulated commanded applied
+  dimensionless interconnected normalized inertial magnetic electric switching standing nonholonomic underactuated
+  planar unmeasured unmeasurable unmodelled unmodeled manipulated commanded applied
   one-dimensional inverted rigid flexible elastic robust optimal exponential asymptotic global uniform ultimate
   practical symmetric discontinuous supertwisting above preceding previous foregoing mixed binomial
   arithmetic-geometric geometric arithmetic starting super-twisting backstepping barrier triangle
@@ -160,7 +160,8 @@ BEFORE_ERROR = _words("""
     squared absolute tracking estimation position velocity speed parameter observation regulation approximation
     state output control
     formation synchronization prediction learning modelling attitude closed-loop angular heading angle input
-    filtered level temperature current voltage spacing adaptation
+    filtered level temperature current voltage spacing adaptation normalized normalised transformed scaled weighted
+    consensus compensated
 """)
 ADVERBS = _words("""
     also then now thus therefore hence further easily directly immediately finally first next clearly readily again

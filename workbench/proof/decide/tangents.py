@@ -100,9 +100,11 @@ def _least(margin: sp.Expr, arguments: list[sp.Expr], given: Given) -> Iterator[
             continue
         finer = np.linspace(PLACES[max(coarse - 1, 0)], PLACES[min(coarse + 1, len(PLACES) - 1)], 4_001)
         least = one | {symbol: sp.Float(float(finer[np.argmin(values(finer))]))}
-        at = [float(a.xreplace(least)) for a in arguments]
+        at = [a.xreplace(least) for a in arguments]
+        if not all(value.is_real and value.is_finite for value in at):  # an argument may have a pole there
+            continue
         for digits in DIGITS:
-            yield [_shortened(value, digits) for value in at]
+            yield [_shortened(float(value), digits) for value in at]
 
 
 def _on(symbol: sp.Symbol, expr: sp.Expr) -> Callable[[np.ndarray], np.ndarray]:

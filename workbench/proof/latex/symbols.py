@@ -16,6 +16,7 @@ from workbench.errors import InputError
 from workbench.files.toml import FileRecord, Text, load_record
 from workbench.proof.claim import D, Relation
 from workbench.proof.language import LANGUAGE
+from workbench.proof.latex.commands import ACCENTS
 from workbench.proof.latex.convert import Converter
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.notation import Notation, without_dot
@@ -241,6 +242,9 @@ def _checked(path: Path, key: str, notation: Mapping[str, sp.Expr]) -> None:
         raise InputError(path, key, str(trouble)) from None
 
 
+_ACCENTED = {"overline": "bar", "widehat": "hat", "widetilde": "tilde"}  # what else accents are typed by
+
+
 def _symbol(name: str, kind: Kind) -> sp.Expr:
     if kind == "vector":
         return sp.IndexedBase(name, real=True)[INDEX]
@@ -248,8 +252,16 @@ def _symbol(name: str, kind: Kind) -> sp.Expr:
 
 
 def _name(typed: str, taken: Mapping[str, str]) -> str:
-    """A name for certificates: the letters and digits of what is typed."""
-    name = "_".join(re.findall(r"[A-Za-z]+|\d+", typed)) or "x"
+    """A name for certificates: the letters and digits of what is typed, accents behind their letter, `theta_hat`."""
+    parts, accents = list[str](), list[str]()
+    for part in re.findall(r"\\?[A-Za-z]+|\d+", typed):
+        command = part.removeprefix("\\")
+        if part != command and command in ACCENTS:
+            accents.insert(0, _ACCENTED.get(command, command))
+        else:
+            parts += [command, *accents]
+            accents = []
+    name = "_".join([*parts, *accents]) or "x"
     if not name[0].isalpha():
         name = f"x_{name}"
     if keyword.iskeyword(name) or name in LANGUAGE:
