@@ -797,8 +797,8 @@ class Relations:
         return False
 
     def _closed_margins(self) -> list[Sign]:
-        for value, op in self.margins[len(self.closed_margins):]:  # assumptions are only ever added
-            self.closed_margins.append((self.context.closed(value), op))
+        more = self.margins[len(self.closed_margins):]  # assumptions are only ever added
+        self.closed_margins += [(self.context.closed(value), op) for value, op in more]
         return self.closed_margins
 
     def _signs(self) -> Signs:
@@ -1170,8 +1170,7 @@ def _combination(value: Ratio, operator: str, given: Relations, proof: dict[str,
         signs: set[str] = set()
         for item in term["factors"]:
             factor, sign = _factor(given, item)
-            product = context.product(product, factor)
-            signs.add(sign)
+            product, signs = context.product(product, factor), signs | {sign}
         if "==" not in signs and (coefficient < 0 or not signs <= {">", ">="}):
             raise CertificateError(f"a term may be negative: {str(term)[:200]}")
         strict |= coefficient > 0 and signs <= {">"}
@@ -1354,7 +1353,7 @@ def bounds(context: Context, value: Ratio, known: Bounds | None = None) -> tuple
             else:
                 function = {"log": log_bounds, "exp": exp_bounds, "sqrt": sqrt_bounds, "arctan": arctan_bounds}[kind]
                 known[atom] = function(x)[0], function(y)[1]
-                spend(100 + sum(bits_of(constant(end)) for end in known[atom]) // 16)  # a series of long numbers
+                spend(100 + sum(bits_of(constant(end)) for end in known[atom]) // 16)
         return known[atom]
 
     def poly(p: Poly) -> tuple[Fraction, Fraction]:
@@ -1763,15 +1762,13 @@ def _check_composition(theorem: dict[str, Any], parts: dict[str, Any]) -> None:
     uses = {name: part.get("premises", {}) for name, part in whole.items()} | parts["cited"]
     if whole.keys() & parts["cited"].keys():
         raise CertificateError("a claim is cited and proved")
-    digests = {name: _require_digest(part) for name, part in whole.items()}
+    digests, below = {name: _require_digest(part) for name, part in whole.items()}, {name: set[str]() for name in whole}
     for name, premises in uses.items():
         for premise, digest in premises.items():
-            spend(1)
             if premise not in uses or digest != digests.get(premise):
                 raise CertificateError(f"{name[:80]} uses {premise[:80]}, which is not there, or of another goal")
     _require_tree(top, uses)
     open_ones = {name: dict.fromkeys(range(len(part["goal"].get("assume", [])))) for name, part in whole.items()}
-    below: dict[str, set[str]] = {name: set() for name in whole}
     for link in parts["links"]:
         name, place, premise = link["of"], link["assume"], link["by"]
         one, other = whole[name]["goal"], whole[premise]["goal"]
