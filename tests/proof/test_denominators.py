@@ -4,7 +4,8 @@ import pytest
 import sympy as sp
 
 from workbench.proof.checker import check
-from workbench.proof.claim import D, Goal, at_least, at_most, equal, greater
+from workbench.proof.claim import Claim, D, Goal, at_least, at_most, equal, greater
+from workbench.proof.decide import engine
 from workbench.proof.decide.engine import prove_goal
 
 q, v, x, u = sp.symbols("q v x u", real=True)
@@ -52,3 +53,16 @@ def test_what_divides_by_a_positive_inertia_is_proved(goal):
 @pytest.mark.parametrize("goal", UNPROVED.values(), ids=UNPROVED)
 def test_what_is_false_or_divides_by_zero_is_not(goal):
     assert prove_goal(goal) is None
+
+
+@pytest.mark.parametrize(("goal", "said"), [
+    (lambda: Goal((at_most(sp.log(k**2 / (k**2 - x**2)), x**2 / (k**2 - x**2)),), (at_most(sp.Abs(x), k),)),
+     "there not k**2 - x**2 != 0"),
+    (lambda: Goal((at_most(sp.sqrt(x), 1 + x**2),)), "there not x >= 0"),
+], ids=["a barrier on its wall", "a root of any number"])
+def test_what_is_undefined_where_all_assumed_holds_is_said_and_no_proof_sought(goal, said, monkeypatch):
+    monkeypatch.setattr(engine, "attempted_proof", lambda goal: pytest.fail("in vain"))
+    found = engine.decide(Claim(id="doe2026:1", title="bound", kind="inequality", printed="x", recorded="proved",
+                                build=goal))
+    assert found.verdict == "undecided"
+    assert said in found.method

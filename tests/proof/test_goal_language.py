@@ -45,6 +45,10 @@ REFUSED = {
         (at_most(x, x_0 + t),), flow={x: sp.Integer(1)}, initial={x: x_0}),
     "what always holds of the time that does not run": lambda: Goal(
         (at_most(x, x_0),), flow={x: w}, inputs=(w,), initial={x: x_0}, always=(at_most(w, 1 - t),)),
+    "a sign that a motion need not keep": lambda: Goal(
+        (greater(positive_x, 0),), flow={positive_x: sp.Integer(-1)}, initial={positive_x: x_0}),
+    "a sign that a motion keeps by what it is": lambda: Goal(
+        (at_most(positive_x, x_0),), flow={positive_x: -positive_x}, initial={positive_x: x_0}, decreasing=positive_x),
     "infinity": lambda: Goal((at_most(x, sp.oo),)),
     "not a number": lambda: Goal((at_most(x, sp.nan),)),
     "an imaginary number": lambda: Goal((equal(sp.I * x, 0),)),
@@ -71,6 +75,13 @@ REFUSED = {
     "two sums at once": lambda: Goal((equal(sp.Sum(W[j] * H[i], (i, 1, n), (j, 1, n)), 0),)),
     "no relation": lambda: Goal(()),
 }
+
+
+def test_a_clock_is_declared_as_it_runs_and_a_sign_at_one_instant_as_it_is_there():
+    time = sp.Symbol("t", nonnegative=True)
+    motion = Goal((at_most(x, x_0 + time),), flow={x: 1, time: 1}, initial={x: x_0, time: 0})
+    assert motion.signs() == (at_least(time, 0),)
+    assert Goal((at_most(D(positive_x), 0),), flow={positive_x: -1}).signs() == (greater(positive_x, 0),)
 
 
 @pytest.mark.parametrize("name", REFUSED)

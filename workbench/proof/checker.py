@@ -797,8 +797,8 @@ class Relations:
         return False
 
     def _closed_margins(self) -> list[Sign]:
-        if len(self.closed_margins) != len(self.margins):
-            self.closed_margins = [(self.context.closed(value), op) for value, op in self.margins]
+        more = self.margins[len(self.closed_margins):]  # assumptions are only ever added
+        self.closed_margins += [(self.context.closed(value), op) for value, op in more]
         return self.closed_margins
 
     def _signs(self) -> Signs:
@@ -806,6 +806,7 @@ class Relations:
         closed = self._closed_margins()
         stand = len(closed), len(self.context.functions)
         if self.signs is None or self.signs[0] != stand:
+            spend(sum(stand))
             self.signs = stand, Signs(self.context, self.margins, closed)
         return self.signs[1]
 
@@ -1166,13 +1167,13 @@ def _combination(value: Ratio, operator: str, given: Relations, proof: dict[str,
     for term in proof["terms"]:
         coefficient = read_rational(term["coefficient"])
         product = number(coefficient)
-        signs: list[str] = []
+        signs: set[str] = set()
         for item in term["factors"]:
             factor, sign = _factor(given, item)
-            product, signs = context.product(product, factor), [*signs, sign]
-        if "==" not in signs and (coefficient < 0 or not set(signs) <= {">", ">="}):
-            raise CertificateError(f"a term may be negative: {term}")
-        strict |= coefficient > 0 and set(signs) <= {">"}
+            product, signs = context.product(product, factor), signs | {sign}
+        if "==" not in signs and (coefficient < 0 or not signs <= {">", ">="}):
+            raise CertificateError(f"a term may be negative: {str(term)[:200]}")
+        strict |= coefficient > 0 and signs <= {">"}
         products.append(product)
     if operator == "==" and not (proof["terms"] == [] or all(
             any(_factor(given, f)[1] == "==" for f in t["factors"]) for t in proof["terms"])):
@@ -1352,6 +1353,7 @@ def bounds(context: Context, value: Ratio, known: Bounds | None = None) -> tuple
             else:
                 function = {"log": log_bounds, "exp": exp_bounds, "sqrt": sqrt_bounds, "arctan": arctan_bounds}[kind]
                 known[atom] = function(x)[0], function(y)[1]
+                spend(100 + sum(bits_of(constant(end)) for end in known[atom]) // 16)
         return known[atom]
 
     def poly(p: Poly) -> tuple[Fraction, Fraction]:
@@ -1760,12 +1762,13 @@ def _check_composition(theorem: dict[str, Any], parts: dict[str, Any]) -> None:
     uses = {name: part.get("premises", {}) for name, part in whole.items()} | parts["cited"]
     if whole.keys() & parts["cited"].keys():
         raise CertificateError("a claim is cited and proved")
+    digests, below = {name: _require_digest(part) for name, part in whole.items()}, {name: set[str]() for name in whole}
     for name, premises in uses.items():
         for premise, digest in premises.items():
-            if premise not in uses or digest != (_require_digest(whole[premise]) if premise in whole else None):
+            if premise not in uses or digest != digests.get(premise):
                 raise CertificateError(f"{name[:80]} uses {premise[:80]}, which is not there, or of another goal")
     _require_tree(top, uses)
-    open_ones = {name: list(range(len(part["goal"].get("assume", [])))) for name, part in whole.items()}
+    open_ones = {name: dict.fromkeys(range(len(part["goal"].get("assume", [])))) for name, part in whole.items()}
     for link in parts["links"]:
         name, place, premise = link["of"], link["assume"], link["by"]
         one, other = whole[name]["goal"], whole[premise]["goal"]
@@ -1774,8 +1777,8 @@ def _check_composition(theorem: dict[str, Any], parts: dict[str, Any]) -> None:
         if premise not in uses[name] or place not in open_ones[name] or text != other["show"][link["show"]] or calls(
                 text, "D") or names & {*one.get("indexed", [])} != names & {*other.get("indexed", [])}:
             raise CertificateError(f"{name}: what it assumes is not shown by {premise}: {text[:80]}")
-        open_ones[name].remove(place)
-    below = {name: {link["by"] for link in parts["links"] if link["of"] == name} for name in whole}
+        del open_ones[name][place]
+        below[name].add(premise)
     for name in whole:
         _require_one_motion([whole[part]["goal"] for part in sorted(_reached(name, below))])
     if parts["assumes"] != {name: [whole[name]["goal"]["assume"][i] for i in open_ones[name]] for name in whole}:

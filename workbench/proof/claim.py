@@ -21,6 +21,7 @@ from workbench.proof.language import (  # noqa: F401 - what goals are stated wit
     has_unstated,
     name_of,
     require_clock,
+    require_kept_signs,
     saturation,
     sinh,
     symbols_in,
@@ -101,11 +102,11 @@ class Goal:
     """For all values of the symbols: `assume` implies every relation in `show`.
 
     The sign that sympy knows of a symbol (positive, nonnegative) is an assumption too, of a symbol that moves at the
-    instant of which the goal speaks. `flow` gives the rates that D(...) uses; `inputs` are symbols without a rate that
-    may vary in time, all others are constant; `always` holds at every instant along the flow, `initial` names values
-    at time zero; `eventually` is the time symbol when `show` is claimed only from some time on. `hint` are functions
-    or lemmas that a proof may use; a hint can help a decider, never convince the checker. `named` are symbols that the
-    goal speaks of beside those that stand in it.
+    instant of which the goal speaks; of what moves from `initial` values, time apart, none is declared. `flow` gives
+    the rates that D(...) uses; `inputs` are symbols without a rate that may vary in time, all others are constant;
+    `always` holds at every instant along the flow, `initial` names values at time zero; `eventually` is the time symbol
+    when `show` is claimed only from some time on. `hint` are functions or lemmas that a proof may use; a hint can help
+    a decider, never convince the checker. `named` are symbols that the goal speaks of beside those that stand in it.
     """
 
     show: tuple[Relation, ...]
@@ -131,6 +132,7 @@ class Goal:
             raise ClaimError("a goal shows nothing: give at least one relation")
         self._leave_out_unreached()
         self._require_clock()
+        require_kept_signs(self.flow, self.initial)
         language = Language(self.flow, self.inputs)
         for relation in (*self.relations(), *self.lemmas):
             language.check(relation.left)

@@ -115,6 +115,16 @@ def require_clock(moving: Sequence[sp.Expr], followed: Sequence[sp.Expr]) -> Non
                          f"{CLOCK}: 1 to the flow, or call it otherwise where it is a constant")
 
 
+def require_kept_signs(flow: Mapping[sp.Expr, sp.Expr], initial: Mapping[sp.Expr, sp.Expr]) -> None:
+    """ClaimError where what moves from given initial values is declared with a sign that its rate need not keep: what
+    is to be shown of the motion would be assumed of it."""
+    for symbol, rate in flow.items() if initial else ():
+        if symbol.is_nonnegative and rate != 0 and not (rate.is_number and rate.is_positive):
+            declared = "positive" if symbol.is_positive else "nonnegative"
+            raise ClaimError(f"{symbol} moves from given initial values and is declared {declared}, which a motion "
+                             "need not stay: declare it real, and state its sign in assume or always where it is known")
+
+
 # A paper's V, its rates and its errors stand in most of its goals: what is looked at once is known by its value.
 @lru_cache(maxsize=8192)
 def _with_value(expr: sp.Expr, index: sp.Symbol | None) -> Parts:

@@ -22,6 +22,7 @@ from workbench.proof.decide.number_roots import with_root_squares
 from workbench.proof.decide.refute import examples, find_counterexample, shown_point, value_at
 from workbench.proof.decide.search import prove_relation
 from workbench.proof.decide.square_roots import with_roots_of_squares
+from workbench.proof.decide.undefined import undefined_somewhere
 from workbench.proof.decide.weaker_signs import with_weaker_signs
 from workbench.proof.derive import expand_derivatives
 from workbench.proof.fate import judged
@@ -61,7 +62,9 @@ def with_match(claim: Claim, decision: Decision) -> Decision:
 def _decide_statement(claim: Claim, goal: Goal) -> Decision:
     verdict = verdict_of_failure(claim)
     certificate_or_none = find_counterexample(goal, verdict, quick=True)  # a search of a proof would be in vain
-    proof = attempted_proof(goal) if certificate_or_none is None else ""
+    proof: Certificate | str = ""
+    if certificate_or_none is None:
+        proof = undefined_somewhere(goal) or attempted_proof(goal)
     if not isinstance(proof, str):
         return shown_by(claim, goal, {"claim": claim.id, **proof})
     certificate_or_none = certificate_or_none or find_counterexample(goal, verdict)
@@ -221,7 +224,7 @@ def proofs_of(goal: Goal) -> list[dict[str, Any]] | str:
 
 def not_shown(goal: Goal, missing: str) -> str:
     """Why a goal is undecided: what is missing, and what came nearest to a decision."""
-    if missing.startswith("a proof") or goal.eventually is not None:
+    if missing.startswith(("a proof", "undefined")) or goal.eventually is not None:
         return missing
     return f"{missing}; {smallest_margin(goal)}"
 

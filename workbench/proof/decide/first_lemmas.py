@@ -54,7 +54,7 @@ def _shown(goal: Goal, wanted_signs: list[Relation], given: Given) -> list[Lemma
     found: list[Lemma] = []
     for wanted in wanted_signs:
         known = (*given, *(lemma for lemma, _ in found))
-        if not _seen_at_once(wanted, known):
+        if not seen_at_once(wanted, known):
             lemma = _signed(goal, wanted, known)
             found += [] if lemma is None else [lemma]
     return found
@@ -106,7 +106,7 @@ def _factors_below(shown: Relation, given: Given) -> list[Lemma]:
 
     Were p <= 0, then p q + (p + q) (-p) + p**2 = 0 > 0.
     """
-    parts = {sp.expand(factor.as_base_exp()[0]) for wanted in _partial(shown) if not _seen_at_once(wanted, given)
+    parts = {sp.expand(factor.as_base_exp()[0]) for wanted in _partial(shown) if not seen_at_once(wanted, given)
              for factor in sp.Mul.make_args(sp.factor(wanted.left)) if factor.free_symbols}
     found: list[Lemma] = []
     for place, relation in enumerate(given) if parts else ():
@@ -159,7 +159,7 @@ def _partial(shown: Relation) -> list[Relation]:
     return sorted(found, key=lambda r: int(r.left.count_ops()))
 
 
-def _seen_at_once(wanted: Relation, given: Given) -> bool:
+def seen_at_once(wanted: Relation, given: Given) -> bool:
     """Whether the checker sees it without a lemma, or sees at least that a denominator is not zero."""
     if any(r.operator != "==" and (vanishes(r.margin - wanted.left) or vanishes(r.margin + wanted.left))
            for r in given):

@@ -63,6 +63,11 @@ def proposals(goal: Goal, seed: int, break_shown: bool, quick: bool = False) -> 
             yield from _worth_a_look(landscape, family, local_search(landscape, family, break_shown, rng), break_shown)
 
 
+def first_proposals(goal: Goal) -> Iterator[Point]:
+    """Those of them that cost least: special values, and a few random ones."""
+    return _familiar(goal, landscape_of(goal), 1, True, True)
+
+
 @once_per_goal
 def _descents(goal: Goal) -> dict[tuple[int, bool], list[tuple[Point, bool]]]:
     return {}
