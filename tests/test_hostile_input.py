@@ -186,7 +186,7 @@ def test_a_number_that_no_line_has_is_named_with_its_key(old, new, words, tmp_pa
 
 def test_options_are_refused_in_one_line(tmp_path):
     for arguments, words in ((("reference", "a", "b", "--intervals", 100_000), "--intervals is too large"),
-                             (("compare", "--bogus"), "No such option: --bogus"), (("nothing",), "'nothing'"),
+                             (("compare", "--bogus"), "no such option --bogus"), (("nothing",), "'nothing'"),
                              (("sweep", "."), "'--out'"), (("compare", "a\nb", "c"), "unexpected extra argument")):
         said = one_line(run(*arguments, folder=tmp_path))
         assert words in said and "--help'" in said and said.isprintable()

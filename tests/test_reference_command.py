@@ -151,7 +151,7 @@ def test_near_the_least_time_the_window_shrinks_and_it_is_said() -> None:
     ((HILLS, TRAIN, "--time", 2600, "--figure", "x.gif"), "figure: end the name in one of"),
     ((HILLS, TRAIN, "--time", 2600, "--json", "/proc/nothing/r.json"), "cannot be written"),
     ((HILLS, TRAIN, "--time", 2600, "--every", 0), "--every: 0 s is no step"),
-    ((HILLS, TRAIN, "--time", 2600, "--window", 5000), "smoothing over 5000 s leave nothing of 2600 s to run"),
+    ((HILLS, TRAIN, "--time", 2600, "--window", 5000), "smoothing over 5000 s leaves nothing of 2600 s to run"),
     ((HILLS, TRAIN, "--time", 2600, "--json", "x.out", "--csv", "x.out"), "x.out: --csv: is what --json writes too"),
     ((HILLS, TRAIN, "--time", 2600, "--json", "x.csv"), "x.csv: --csv: is what --json writes too"),
     ((HILLS, TRAIN, "--time", 2600, "--json", HILLS), "hills.toml: --json: is a .toml file"),

@@ -131,7 +131,7 @@ def test_what_is_assumed_is_listed_with_its_reason(content, page):
     values = {value.key: value for value in sourced_values(content.scenario)}
     assert values["train.mass_kg"].kind == "assumed" and values["train.davis_a_mps2"].kind == "paper"
     assert values["track.length_m"].words == "short" and values["simulation.log_every_s"].kind == "convention"
-    text = unescape(page).replace("<wbr>", "")
+    text = unescape(page).replace("<wbr>", "").replace("\N{MINUS SIGN}", "-")
     for value in values.values():
         assert value.key in text and value.words in text
 

@@ -27,7 +27,7 @@ def test_between_which_numbers_a_letter_lies(formula, kinds):
     ("where $k > 1$ is a constant.", ["k > 1"], "positive"),
     ("with constants $k > c > 0$.", ["k > c > 0"], "positive"),
     ("where $k < 2$ is a positive constant.", ["k < 2"], "positive"),
-    ("where $k < 2$ is a constant.", ["k < 2"], ""),  # of either sign
+    ("where $k < 2$ is a constant.", ["k < 2"], "real"),  # of either sign
     # Said twice, of what varies, or of more than constants: nobody knows which holds where.
     ("where $k > 1$ is a constant. Let $0 < k < 2$ be a constant.", [], ""),
     ("where $k > 0$ is a constant. Let $k > 1$ be a gain.", [], ""),

@@ -287,7 +287,7 @@ def test_numbers_of_gains_may_be_of_any_kind_and_what_is_none_is_named(tmp_path)
 
 
 def test_letters_of_legends_have_their_indices_and_names_stay():
-    assert lettered("v_d, c_1 and γ_a") == r"$\mathregular{v_{d}}$, c₁ and $\mathregular{γ_{a}}$"
+    assert lettered("v_d, c_1 and γ_a") == r"$\mathregular{v_{d}}$, c₁ and γₐ"
     assert lettered("mpc_linear, rbfnn_pocrac, 5 $") == r"mpc_linear, rbfnn_pocrac, 5 \$"
     x = np.arange(3.0)
     plot = Plot("Speeds", "paper, Figure 1", "t (s)", "v_d (m/s)", (Curve("v_d", x, x), Curve("mpc_linear", x, 2 * x)))

@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import pytest
 
-from workbench.proof.checker import ACCEPTED, CertificateError, Context, Ratio, check, digest_of, number
+from workbench.proof.checker import ACCEPTED, CertificateError, Context, Ratio, check, digest_of, goal_digest, number
 
 IDENTITY = {"rule": "identity"}
 TINY, LONG = 10**17, 10**400  # beyond a float's digits, and beyond the length at which denominators are made one
@@ -44,9 +44,11 @@ def test_no_number_of_a_value_is_a_float():
 def test_a_theorem_is_remembered_with_its_goal_alone():
     """What was accepted is remembered by all that it says: a theorem whose own proof was exchanged is checked."""
     honest = certificate("x >= 1", {"rule": "combination", "terms": [{"coefficient": "1", "factors": [{"assume": 0}]}]})
+    honest["goal_digest"] = goal_digest(honest)
     check(honest)
     ACCEPTED.add(digest_of(honest))
     forged = honest | {"goal": {"assume": ["x > 1"], "show": ["x >= 2"]}}
+    forged["goal_digest"] = goal_digest(forged)
     parts = {"certificates": {}, "cited": {}, "links": [], "assumes": {"1": ["x > 1"]}}
     check(honest | {"composition": parts})
     with pytest.raises(CertificateError, match="add up"):

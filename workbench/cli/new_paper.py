@@ -22,10 +22,12 @@ def command(name: Annotated[str, typer.Argument(metavar="NAME", help="The paper'
             plant: Annotated[bool, typer.Option("--plant", help="About a plant of your own, not a train.")] = False,
             source: Annotated[Path | None, typer.Option(
                 "--from", metavar="FILE", help="LaTeX or Markdown source of a paper: its numbered rows and letters as "
-                "tables.")] = None) -> None:
+                "tables.")] = None,
+            directory: Annotated[Path | None, typer.Option("--directory", hidden=True)] = None) -> None:
     """Write a paper's folder to start from: each kind of claim, a law, and a study that runs it beside PID and MPC."""
     from workbench.paper.new_paper import write_new_paper
 
+    out = out if directory is None else directory  # as --out was called before
     if source is not None:
         if plant:
             raise InputError("", "--plant", "goes without --from, which writes claims alone: leave one of them out")

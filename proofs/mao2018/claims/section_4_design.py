@@ -113,7 +113,7 @@ xi_rate, varpi_one = sp.symbols("xi_hat_rate varpi_one", real=True)
              where={r"\hat{\xi}(t)": xi_rate, r"\varpi(t)": varpi_one},
              reading="(41); the extracted text lost the dot over xi_hat, which is 'updated by' it.",
              note="Decided as what the paper chooses it for: the rate for which the coefficient of the estimation error "
-                  "is zero. With several modes the weights of (40) do not fit: see 41.")
+                  "is zero. With several modes the weights of (40) do not fit: see the display before (42).")
 def xi_law_cancels() -> Goal:
     """The coefficient of a component of xi_tilde: m_i z_2 varpi from z_2', and that of its square in (40)."""
     return Goal((equal(xi_rate, Gamma_xi * z_2 * varpi_one),), (equal(m * z_2 * varpi_one - m / Gamma_xi * xi_rate, 0),))
@@ -244,7 +244,7 @@ def disturbance_outweighed_failed() -> Goal:
                   "the estimate stands as -rho_knu_hat xi_hat^T varpi; in the pattern of (37) its law is then the one with a plus, "
                   "and with that the terms cancel. The extracted text has a clear minus in (44), as in (54) and (61); the printed "
                   "page was not looked at. Three faults break (45), (51), (57) and (65), each by itself: this sign, k_nu missing in "
-                  "the weights of (40), see 37.failures, and the sum of m_i over the modes in (40), see 41. The sign alone refutes Theorems "
+                  "the weights of (40), see 37.failures, and the sum of m_i over the modes in (40), see the display before (42). The sign alone refutes Theorems "
                   "2 to 5: the motions below have one mode, and V_2, with its weights, is no part of the loop.")
 def rho_k_law_cancels() -> Goal:
     """At any weight."""
