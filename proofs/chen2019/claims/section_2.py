@@ -83,7 +83,7 @@ def projection_property() -> Goal:
 
 @paper.claim("6.mended", "Property 1 for the projection of any number h", "inequality",
              r"[(\gamma+1)g - (\gamma h + \operatorname{sat}(h, \underline{g}, \overline{g}))][h - "
-             r"\operatorname{sat}(h, \underline{g}, \overline{g})] \le 0", "proved", origin="ours", mends="6", glyph="33.property",
+             r"\operatorname{sat}(h, \underline{g}, \overline{g})] \le 0", "proved", origin="ours", mends="6",
              reading="For any h, and with sat(h) in the first bracket, as (33) uses it with gamma = 0.")
 def projection_property_of_any_number() -> Goal:
     """Case by case of h below, within and above the bounds."""

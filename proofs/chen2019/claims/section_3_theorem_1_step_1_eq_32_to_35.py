@@ -79,7 +79,8 @@ def mass_step_limited() -> Goal:
 
 @paper.claim("33.property", "(33) is Property 1 with gamma = 0", "identity",
              r"[(\gamma+1)g - (\gamma h + \operatorname{sat}(g, \underline{g}, \overline{g}))][h - \operatorname{sat}(h, \underline{g}, "
-             r"\overline{g})] \le 0,\ \text{Using Property 1 and letting } \gamma = 0", "refuted", match="words", glyph="6.mended",
+             r"\overline{g})] \le 0,\ \text{Using Property 1 and letting } \gamma = 0", "refuted", match="words",
+             glyph="33.property.glyph",
              scope="numbers g, h and bounds of g",
              reading="With g for M and h for the value that is saturated, for any h, the left side of (33) is that of (6) at gamma = 0.",
              note="As extracted (6) has sat(g), which is g, where (33) needs sat(h); and 'h = sat(g, ...)' behind it makes (6) say "
@@ -89,6 +90,17 @@ def property_used() -> Goal:
     rest = h - limited(h, g_low, g_high)
     return Goal((equal((g - limited(h, g_low, g_high)) * rest, (g - limited(g, g_low, g_high)) * rest),),
                 (at_most(g_low, g), at_most(g, g_high)))
+
+
+@paper.claim("33.property.glyph", "With sat(h) in (6) its left side at gamma = 0 is that of (33)", "identity",
+             r"\gamma = 0:\ [(\gamma+1)g - (\gamma h + \operatorname{sat}(h, \underline{g}, \overline{g}))][h - \operatorname{sat}(h, "
+             r"\underline{g}, \overline{g})] = [g - \operatorname{sat}(h, \underline{g}, \overline{g})][h - \operatorname{sat}(h, "
+             r"\underline{g}, \overline{g})]", "proved", origin="ours", glyph="33.property", scope="numbers g, h and bounds of g")
+def property_read_otherwise() -> Goal:
+    """(6) with sat(h) in its first bracket, against the product of (33)."""
+    gamma, inside = sp.Symbol("gamma", nonnegative=True), limited(h, g_low, g_high)
+    return Goal((equal(((gamma + 1) * g - (gamma * h + inside)) * (h - inside), (g - inside) * (h - inside)),),
+                (equal(gamma, 0),))
 
 
 @paper.claim("33", "Property 1 applied to the estimate of the mass", "inequality",
