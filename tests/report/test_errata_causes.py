@@ -57,6 +57,14 @@ def test_causes_are_told_before_what_falls_with_them_and_their_evidence_behind()
     assert "**Printed:**" not in text[shown:text.index("### 2. ", shown)] and re.search(r"^ +1  1 ", text, re.MULTILINE)
 
 
+def test_how_a_cause_is_read_is_told_where_it_is_told_first():
+    first, *others = chain()
+    read = replace(first, claim=replace(first.claim, reading="Shown for one mass."))
+    text = markdown(errata([read, *others], CITATION))
+    told = text[text.index("## The causes"):text.index("## Evidence: the causes")]
+    assert "**How it is read.** Shown for one mass." in told
+
+
 def test_what_holds_although_the_text_comes_to_it_through_a_line_that_fails_stands_apart():
     holding = [replace(_line(equation, "x**2 >= 1", (on,), severity=severity, point={"x": "0"}), verdict="proved",
                        certificate=None)

@@ -56,6 +56,9 @@ def line_of(found: Finding, context: Context) -> Formula:
     return Formula(found.printed, context.printed if found.origin == "printed" else IMPLIED)
 
 
+READ_AS = "How it is read"
+
+
 def corrected(found: Finding) -> list[Block]:
     """What it should read, for what that is proved, and what of that is not shown; nothing where no true statement is
     known."""

@@ -8,14 +8,13 @@ from workbench.report.counterexample import Counterexample
 from workbench.report.errata.blocks import Block, Formula, Heading, Paragraph
 from workbench.report.errata.chain import consequence
 from workbench.report.errata.conditions import ALONG, LONGEST, STATEMENT_CHECKED, UNDER, listed_conditions
-from workbench.report.errata.context import Context, corrected, heading_of, labelled, line_of
+from workbench.report.errata.context import READ_AS, Context, corrected, heading_of, labelled, line_of
 from workbench.report.errata.letters import legend
 from workbench.report.errata.names import noted
 from workbench.report.finding import GRAVITIES, Finding, Gravity
 from workbench.report.finding_sentences import HEADINGS, reading_sentence, verdict_sentence
 from workbench.report.worded import worded
 
-READ_AS = "How it is read"
 READINGS = ("The text of the paper was extracted by a machine, which may lose a sign, a power or an index. These lines "
             "fail as extracted and hold in another reading; the printed page decides which it is.")
 

@@ -13,6 +13,9 @@ from workbench.report.hypotheses import Need
 from workbench.report.worded import worded
 
 _SIGN = re.compile(r"[^=<>]* (?:>|\\ge|\\ne) 0")
+# What stands in front of the conditions of a corrected line, and of its motion where there are none: not of the finding
+# behind it, which is of the line as printed.
+HOLDS_UNDER, HOLDS_FOR = "It holds under the conditions", "It holds for the motion with"
 MOST = 4000  # characters of LaTeX beyond which a reader is sent to the proofs of the lines that a proof uses
 
 
@@ -39,5 +42,6 @@ def needed(needs: Sequence[Need]) -> list[Block]:
 def _conditions(need: Need) -> list[Block]:
     uses = worded(listed(need.uses))
     told = (("Letters", need.letters), ("Also used", f"{uses}." if uses else ""))
-    return [*listed_conditions({UNDER: need.conditions, ALONG: need.rates}),
+    under, along = (HOLDS_UNDER, ALONG) if need.conditions else (UNDER, HOLDS_FOR)
+    return [*listed_conditions({under: need.conditions, along: need.rates}),
             *(Paragraph(text, label) for label, text in told if text)]

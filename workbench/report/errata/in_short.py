@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from workbench.report.errata.blocks import Block, Heading, Item, Items, Paragraph
 from workbench.report.errata.causes import Cause
 from workbench.report.errata.chain import consequence, corrections
-from workbench.report.errata.context import Context, corrected, heading_of, labelled, line_of
+from workbench.report.errata.context import READ_AS, Context, corrected, heading_of, labelled, line_of
 from workbench.report.errata.letters import legend
 from workbench.report.errata.names import noted
 from workbench.report.finding import Finding
@@ -87,7 +87,7 @@ def _told(cause: Cause, context: Context) -> list[Block]:
     finding = Paragraph(verdict_sentence(found), "Finding")
     resting = context.resting.get(found.equation, ())
     blocks = [Heading(3, f"{context.numbers[found.equation]}. {heading_of(found)}"), line_of(found, context),
-              *corrected(found), finding, *labelled(
+              *labelled((READ_AS, noted(found.reading, context.titles))), *corrected(found), finding, *labelled(
                   ("Letters", legend([finding], context.letters[found.equation], found.needs)),
                   ("Consequence", consequence(found, context.numbers, resting, context.titles)),
                   ("Note", noted(found.note, context.titles)))]
