@@ -92,7 +92,7 @@ ENERGY = (r"v_1 \ge 0,\ k_j = \tfrac{c_k}{m_j} \le k_{\max},\ d_j = \tfrac{c_d}{
              premises=("54", "55"), correction=_grows_linearly, corrected_statement=ENERGY,
              reading="The integral of e_s^2 is bounded by one bound for all iterations, from (54) and E_{i-1} <= E_1; the constants of "
                      "(54) are taken as 1. For one iteration alone it is trivial, once the motion exists on [0, T].",
-             note="This is no motion of the loop; it shows what the step lacks. No motion of the loop is known in which s or v "
+             note="The numbers are no motion of the loop; they show what the step lacks. No motion of the loop is known in which s or v "
                   "grows with the iterations. The bounds contain the saturation, of which nothing is shown: mu is not bounded anywhere, so that (54) and "
                   "(55) alone let s grow with the iterations; and integrals do not bound values. The limits of the forces bound "
                   "s and v as long as v_1 >= 0, which nothing in the paper ensures: added over the cars, the rate of |s|^2 + "
