@@ -161,8 +161,8 @@ INT_U_3 = r"\int_0^T \|\Delta \mathbf{u}_i\|^2 \, d\tau"
 IN_PART_3 = {**IN_54, **dict(zip(PART_3, (S_e, W_e), strict=True)), INT_U_3: Y}
 
 
-@paper.claim("theorem1.3", "Theorem 1, part 3: for c_lambda > 0, which the gains of section IV break, i >= 2 and motions that exist on "
-             "[0, T] and start with lambda = 0, the tracking errors remain within the bounds; that these are compact, the same "
+@paper.claim("theorem1.3", "Theorem 1, part 3: for i >= 2, motions that exist on [0, T] and start with lambda = 0, and c_lambda > 0, "
+             "which the gains of section IV break, the tracking errors remain within the bounds; that these are compact, the same "
              "for all iterations, is not shown, since nothing bounds Delta u", "implication",
              rf"{PART_3[0]} \leq {_right_54(INT_U_3)}, {PART_3[1]} \leq {_right_54(INT_U_3)}", "proved",
              severity="result", premises=PREMISES_54, rests_on=("54", "55"), where=IN_PART_3,
