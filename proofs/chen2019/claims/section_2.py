@@ -158,7 +158,7 @@ behind_motors = dict(zip(six["s"], (Fraction(-7 * k, 10**4) for k in (0, 1, 1, 2
 trailer_force = float(mass_stated * (table_1[c_0] + table_1[c_v] * cruise_stated))
 
 
-@paper.claim("A2.level", "On level track an input within the limits keeps six cars on the reference", "condition",
+@paper.claim("A2", "Assumption 2: on level track an input within the limits keeps six cars on the reference", "condition",
              r"\text{There is always an appropriate control input $u_r(t)$ to drive the high-speed train to track the "
              r"reference trajectories $s_r$ and $v_r$ over the finite time interval $[0, T]$.}", "violated", match="words",
              reading="At the cruising speed of 83.5 m/s, with the one reference that the paper gives to all cars, the "

@@ -112,7 +112,7 @@ def _trailers(results: ChenResults) -> str:
             f"m/s: the train as a whole {'can' if need <= limit else 'cannot'} follow it")
     if trailers:
         text += (f"; a trailer cannot by itself, it needs {number(trailer_force(study, ref.cruise_mps, 0.0))} N "
-                 "forwards even at cruise (claim A2.level)")
+                 "forwards even at cruise (claim A2)")
     if trailers and len(run.totals):
         stretch = number(1e3 * float(run.total("coupler_stretch_m")[-1]))
         text += f". In the last trial the couplers are stretched by up to {stretch} mm to pull the trailers"

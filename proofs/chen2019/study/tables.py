@@ -163,7 +163,7 @@ def forces(results: ChenResults) -> ResultTable:
         stretch = Quantity(trailer / train.coupler_n_per_m, "mm", 1e-3) if trailer > 0 else "brakes itself"
         rows.append((what, speed, rate, need, limit, Quantity(abs(need) / limit, "%", 0.01), trailer, stretch))
     return ResultTable(
-        "What the reference asks of the train", "claim A2.level; Table 1, limits of section IV, level track",
+        "What the reference asks of the train", "claim A2; Table 1, limits of section IV, level track",
         ("Phase", Column("Speed", "m/s", decimals=1), Column("Acceleration", "m/s²", decimals=2),
          Column("All cars", "kN", 1e3, decimals=1), Column("Available", "kN", 1e3, decimals=0), "Used",
          Column("Each trailer", "kN", 1e3, decimals=2), "Coupler pulling one trailer"), tuple(rows),
