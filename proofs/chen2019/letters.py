@@ -55,7 +55,7 @@ LETTERS = {
     "k_max": r"a bound of $c_k/m_j$",
     "d_j": r"$c_d/m_j$",
     "d_max": r"a bound of $c_d/m_j$",
-    "r_j": r"$c_v$, of the first car $c_v + c_a\sum_k m_kv_1/m_1$",
+    "r_j": r"$c_v$, of the first car $c_v + c_a\sum_l m_lv_1/m_1$, where $r_1 \ge 0$ stands for $v_1 \ge 0$",
     "s_ahead": "the place of the car ahead",
     "s_behind": "the place of the car behind",
     "v_ahead": "the speed of the car ahead",

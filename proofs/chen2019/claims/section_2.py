@@ -158,7 +158,7 @@ behind_motors = dict(zip(six["s"], (Fraction(-7 * k, 10**4) for k in (0, 1, 1, 2
 trailer_force = float(mass_stated * (table_1[c_0] + table_1[c_v] * cruise_stated))
 
 
-@paper.claim("A2", "Assumption 2: an input within the limits keeps six cars on the reference", "condition",
+@paper.claim("A2", "Assumption 2: on level track an input within the limits keeps six cars on the reference", "condition",
              r"\text{There is always an appropriate control input $u_r(t)$ to drive the high-speed train to track the "
              r"reference trajectories $s_r$ and $v_r$ over the finite time interval $[0, T]$.}", "violated", match="words",
              reading="At the cruising speed of 83.5 m/s, with the one reference that the paper gives to all cars, the "
@@ -171,8 +171,8 @@ trailer_force = float(mass_stated * (table_1[c_0] + table_1[c_v] * cruise_stated
                   "IV says itself that couplers drag the trailers; then their places differ. What is missed is small: if "
                   "the errors in m and in m/s stay below one number, it is at least 0.16 mm and mm/s on a long cruise, and 1.8 "
                   "where the train gains speed for long (A2.floor). With every trailer 0.7 mm behind its motor car an input "
-                  "exists at cruise (A2.behind), 7.7 mm where the train gains speed from low speed; that is another reference. The proof of Theorem 1 "
-                  "does not use Assumption 2.")
+                  "exists at cruise (A2.behind), 7.7 mm where the train gains speed from low speed; that is another reference. The "
+                  "proof of Theorem 1 does not use Assumption 2.")
 def reference_can_be_tracked() -> Goal:
     """The six forces at cruise against the limits of motor cars (1, 3, 5) and trailers."""
     return _within_limits()

@@ -10,7 +10,7 @@ from fractions import Fraction
 
 import sympy as sp
 
-from workbench.proof.claim import Goal, Relation, at_least, at_most, equal, greater, less
+from workbench.proof.claim import Goal, Relation, at_least, at_most, equal, less
 
 from ..goal_forms import both
 from ..laws import M_hat, c_3, gamma_mass, limited, loop_force, mass_step, mu_law, mu_of, v_dot
@@ -61,7 +61,8 @@ def saturation_slope() -> Goal:
     return Goal((at_most(step**2, step * (a - b)),), limits)
 
 
-@paper.claim("16.unique", "(7), (8), (16) determine the acceleration, even where the mass is estimated 1/c_3 = 25 kg too high",
+@paper.claim("16.unique", "(16), an equation in the acceleration that its input causes, has one solution, even where the mass is estimated "
+             "1/c_3 = 25 kg too high",
              "implication",
              r"m a = \mathrm{sat}(\mu(a)) + \rho,\ m b = \mathrm{sat}(\mu(b)) + \rho \Rightarrow a = b", "gap",
              origin="implied", premises=("16.loop", "8.slope"), rests_on=(), scope=EACH_CAR,
@@ -147,15 +148,15 @@ def sampled_loop_settles() -> Goal:
     return Goal((less((mass_hat - 1 / c_3) ** 2, mass**2),))
 
 
-@paper.claim("16.learning", "(7), (8), (16) determine the acceleration, with (22) for the estimate of the mass",
+@paper.claim("16.learning", "(16), an equation in the acceleration that its input causes, has one solution, with (22) for the estimate of the mass",
              "implication",
              r"\hat m = \mathrm{sat}(\hat m_{i-1} - \gamma_M c_3 z_2\dot v, \underline m, \overline m):\ "
              r"m a = \mathrm{sat}(\mu(a)) + \rho,\ m b = \mathrm{sat}(\mu(b)) + \rho \Rightarrow a = b", "gap",
              origin="implied", premises=("16.loop",), rests_on=(), scope="one motor car in one iteration",
              reading="At the gains of section IV, for a car of 50 t with limits of 40 kN, without other forces, whose estimate of "
-                     "the iteration before is the mass, at z_2 = -0.15625 m/s.",
-             note="A remark, as the last one. (22) uses the acceleration of the same instant, so (16) is quadratic in it and several accelerations "
-                  "can solve the loop, even where the estimate of the iteration before is the mass. With the "
+                     "the iteration before is the mass, with 49 t and 51 t as the bounds of the mass, at z_2 = -0.15625 m/s.",
+             note="A remark, as the last one: the paper does not print it. (22) uses the acceleration of the same instant, so "
+                  "(16) is quadratic in it and several accelerations can solve the loop, even where the estimate of the iteration before is the mass. With the "
                   "acceleration of the sample before in (22) the estimate would be given and 16.unique.mended decide, but then "
                   "(34) no longer cancels c_3 z_2^T M_tilde v', and the proof is lost.")
 def loop_with_learning() -> Goal:
@@ -166,6 +167,6 @@ def loop_with_learning() -> Goal:
         return (at_least(estimate, g_low), at_most(estimate, g_high), at_least(command, u_low),
                 at_most(command, u_high), equal(mass * x, command + rest))
 
-    bounds = (greater(g_low, 0), at_most(g_low, mass), at_most(mass, g_high), *alone_as_stated,
+    bounds = (equal(g_low, 49000), equal(g_high, 51000), *alone_as_stated,
               equal(gamma_mass, stated_learning[gamma_mass]), equal(z_car, Fraction(-5, 32)))
     return Goal((equal(a, b),), (*bounds, *solved(a), *solved(b)))

@@ -77,14 +77,16 @@ def mass_step_limited() -> Goal:
     return replace(goal, show=(*goal.show, equal(first_32 / gamma_mass, second_32 / gamma_mass - c_3 * last_32)))
 
 
-@paper.claim("33.property", "(33) is Property 1 with gamma = 0", "identity",
+@paper.claim("33.property", "With sat(g) in the first bracket (6) at gamma = 0 has the left side of (33), for any h", "identity",
              r"[(\gamma+1)g - (\gamma h + \operatorname{sat}(g, \underline{g}, \overline{g}))][h - \operatorname{sat}(h, \underline{g}, "
              r"\overline{g})] \le 0,\ \text{Using Property 1 and letting } \gamma = 0", "refuted", match="words",
              glyph="33.property.glyph",
              scope="numbers g, h and bounds of g",
-             reading="With g for M and h for the value that is saturated, for any h, the left side of (33) is that of (6) at gamma = 0.",
-             note="As extracted (6) has sat(g), which is g, where (33) needs sat(h); and 'h = sat(g, ...)' behind it makes (6) say "
-                  "0 <= 0. (33) is true, and so is (6) in the letters that (33) needs.")
+             reading="With g for M and h for the value that is saturated, the left side of (33) is that of (6) at gamma = 0. It is asked "
+                     "for any h, as (33) needs it, without 'h = sat(g, ...)' behind (6).",
+             note="With h = sat(g, ...), as extracted, (6) says 0 <= 0, and (33) does not follow from it; without it (6) has sat(g), "
+                  "which is g, where (33) needs sat(h). (33) is true, and so is (6) with sat(h), for every h and g_low <= g <= "
+                  "g_high.")
 def property_used() -> Goal:
     """(6) as extracted at gamma = 0, without what is said of h, against the product of (33)."""
     rest = h - limited(h, g_low, g_high)

@@ -89,16 +89,17 @@ def auxiliary_decay() -> Goal:
     return Goal((at_most(D(V_lambda), bound),), minimum_lambda, auxiliary)
 
 
-@paper.claim("49.stated", "c_lambda is a positive constant at the stated gains", "condition",
+@paper.claim("49.stated", "The gains of section IV meet the premise c_lambda > 0", "condition",
              C_LAMBDA + r" \text{ is a positive constant}", "violated", at=stated_gains, match="words",
              reading="Both c_1 - 1/2 and c_2 - 1/2 - c_3/2 are positive at c_1 = 0.01, c_2 = 100, c_3 = 0.04.",
              repair={**stated_gains, c_1: Fraction(1)},
-             note="The paper's own condition below (49), and section IV says that the gains are chosen 'according to the "
-                  "requirements with respect to the stability of control system'. c_1 = 0.01 gives c_lambda = -0.49, so "
-                  "(51), (54), (55) and part 3 of Theorem 1 say nothing about the simulation. Besides c_1 > 1/2 there is "
-                  "another way out. For all positive gains c_1^2 times the integral of |e_s|^2, with that of |e_v|^2, is at most "
-                  "2/c_2 times E_{i-1} - E_i, which tends to zero, and 2 (c_3/c_2)^2 times the integral of |Delta u|^2 "
-                  "(theorem1.3.any_gains).")
+             note="The paper prints the condition below (49), and section IV says that the gains are chosen 'according to the "
+                  "requirements with respect to the stability of control system'. The gains are free in section III, so that "
+                  "part 3 of Theorem 1 holds for c_lambda > 0; c_1 = 0.01 gives c_lambda = -0.49, and part 3, (51), (54), (55) "
+                  "say nothing about the simulation. Besides c_1 > 1/2 there is another way out. For all positive gains, i >= "
+                  "2, lambda(0) = 0 and a motion that exists on [0, T] one bound holds: the sum of c_1^2 times the integral of "
+                  "|e_s|^2 and of the integral of |e_v|^2 is at most the sum of (2/c_2) (E_{i-1}(T) - E_i(T)), which tends to "
+                  "zero, and of 2 (c_3/c_2)^2 times the integral of |Delta u|^2 (theorem1.3.any_gains).")
 def auxiliary_gain_positive() -> Goal:
     """Both entries of the minimum."""
     return Goal(tuple(greater(r.right, 0) for r in minimum_lambda))

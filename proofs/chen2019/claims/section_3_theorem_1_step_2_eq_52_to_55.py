@@ -161,9 +161,11 @@ INT_U_3 = r"\int_0^T \|\Delta \mathbf{u}_i\|^2 \, d\tau"
 IN_PART_3 = {**IN_54, **dict(zip(PART_3, (S_e, W_e), strict=True)), INT_U_3: Y}
 
 
-@paper.claim("theorem1.3", "Theorem 1, part 3: for c_lambda > 0 and i >= 2 the tracking errors remain within the bounds", "implication",
+@paper.claim("theorem1.3", "Theorem 1, part 3: for i >= 2, motions that exist on [0, T] and start with lambda = 0, and c_lambda > 0, "
+             "which the gains of section IV break, the tracking errors remain within the bounds; that these are compact, the same "
+             "for all iterations, is not shown, since nothing bounds Delta u", "implication",
              rf"{PART_3[0]} \leq {_right_54(INT_U_3)}, {PART_3[1]} \leq {_right_54(INT_U_3)}", "proved",
-             severity="result", premises=PREMISES_54, rests_on=("49.stated", "54", "55"), where=IN_PART_3,
+             severity="result", premises=PREMISES_54, rests_on=("54", "55"), where=IN_PART_3,
              reading=READING_54 + " For motions that solve (16) and exist on [0, T]; i >= 2, since no E_0 is defined.",
              scope=EACH_CAR,
              note="The inequalities hold; that the bounds are compact, the same for all iterations, is not shown, since nothing "
@@ -197,7 +199,7 @@ def errors_against_speeds() -> Goal:
              rf"c_1^2{PART_3[0]} + {PART_3[1]} \leq \frac{{2}}{{c_2}}(E_{{i-1}} - E_i) + "
              rf"2\left(\frac{{c_3}}{{c_2}}\right)^2 {INT_U_3}", "proved", origin="ours",
              mends="theorem1.3", premises=("51.lambda_2", "35", "53.speed"), where=IN_PART_3 | {"E_i": E_now}, scope=EVERY_TRAIN,
-             note="For i >= 2, without a condition on c_lambda, hence for the stated gains too, where the factor of the saturation "
+             note="For i >= 2, at t = T, with lambda(0) = 0, for a motion that exists on [0, T], without a condition on c_lambda, hence for the stated gains too, where the factor of the saturation "
                   "is 3.2e-7 (m/s)^2 per N^2. E_i falls and is not negative, so that E_{i-1} - E_i tends to zero: what is left in "
                   "the end is the saturation alone.")
 def tracking_errors_bounded_for_all_gains() -> Goal:

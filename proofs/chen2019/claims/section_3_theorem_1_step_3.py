@@ -51,10 +51,12 @@ def _no_bound_of_values() -> Goal:
              r"\text{According the definition of $E_i$, it can draw the conclusion that $\Theta_{v,i}$, $\theta_{a,i}$, "
              r"$\theta_{k,i}$, $\theta_{d,i}$, $\eta_i$ and $M_i$ are all bounded.}", "gap", match="words",
              premises=("46", "45.bounded"),
-             reading="The values of the estimates at an instant, for all iterations, from E_i <= E_1.",
+             reading="The values of the estimates at an instant, bounded by one bound for all iterations, from E_i <= E_1. For one "
+                     "iteration alone it is trivial, once the motion exists on [0, T].",
              note="E_i holds integrals of the squared errors, which do not bound their values: theta_tilde_i(tau)^2 = "
-                  "(i+2) tau^(i+1) on [0, 1] has the integral 1 and ends at i+2. In each iteration the "
-                  "estimates are bounded when v is, by (17)-(21), but no bound for all iterations is shown.")
+                  "(i+2) tau^(i+1) on [0, 1] has the integral 1 and ends at i+2. This is no motion of the loop; it shows what the "
+                  "step lacks. No motion is known in which the estimates grow. In each iteration they are bounded when v is, "
+                  "by (17)-(21), but no bound for all iterations is shown.")
 def estimates_bounded() -> Goal:
     """theta_tilde_i(1)^2 from the integral of theta_tilde_i^2, which is bounded."""
     return _no_bound_of_values()
@@ -81,16 +83,17 @@ I_e, I_u = sp.symbols("I_e I_u", real=True)  # of an iteration: the integrals of
 
 ENERGY = (r"v_1 \ge 0,\ k_j = \tfrac{c_k}{m_j} \le k_{\max},\ d_j = \tfrac{c_d}{m_j} \le d_{\max},\ |f_j| = \left|\tfrac{u_j + "
           r"f^a_j}{m_j} - c_0\right| \le f_{\max} \Rightarrow \tfrac{d}{dt}\tfrac12(s_j^2 + v_j^2) \le \tfrac12f_{\max}^2 + (1 + "
-          r"4k_{\max} + 4d_{\max})\sum_{k=j-1}^{j+1}(s_k^2 + v_k^2),\ s_0 = s_1, v_0 = v_1, s_{n+1} = s_n, v_{n+1} = v_n")
+          r"4k_{\max} + 4d_{\max})\sum_{l=j-1}^{j+1}(s_l^2 + v_l^2),\ s_0 = s_1, v_0 = v_1, s_{n+1} = s_n, v_{n+1} = v_n")
 
 
 @paper.claim("theorem1.1.state", "s and v are bounded according to (54) and (55)", "implication",
              r"\text{since $s_r$ and $v_r$ are the known bounded variables in the interval [0, T], the displacement $s_i$ "
              r"and velocity $v_i$ are also bounded in [0, T] according to (54) and (55).}", "gap", match="words",
              premises=("54", "55"), correction=_grows_linearly, corrected_statement=ENERGY,
-             reading="The integral of e_s^2 is bounded for all iterations, from (54) and E_{i-1} <= E_1; the constants of (54) are taken "
-                     "as 1.",
-             note="The bounds contain the saturation, of which nothing is shown: mu is not bounded anywhere, so that (54) and "
+             reading="The integral of e_s^2 is bounded by one bound for all iterations, from (54) and E_{i-1} <= E_1; the constants of "
+                     "(54) are taken as 1. For one iteration alone it is trivial, once the motion exists on [0, T].",
+             note="The numbers are no motion of the loop; they show what the step lacks. No motion of the loop is known in which s or v "
+                  "grows with the iterations. The bounds contain the saturation, of which nothing is shown: mu is not bounded anywhere, so that (54) and "
                   "(55) alone let s grow with the iterations; and integrals do not bound values. The limits of the forces bound "
                   "s and v as long as v_1 >= 0, which nothing in the paper ensures: added over the cars, the rate of |s|^2 + "
                   "|v|^2 is at most a constant plus a multiple of it, and Gronwall's inequality does the rest. Where v_1 < 0 the "
