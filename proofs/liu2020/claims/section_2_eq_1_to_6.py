@@ -29,6 +29,7 @@ from ..plant import (
     u,
     v,
 )
+from .section_1 import v_other
 
 paper.axiom("1", "Newton's law for the train as one mass",
             r"M\frac{dv}{dt} = M\dot{v}(t) = F,\quad F = u(t) - f_d(v, s)", "Garg 1984, the paper's [36]", hypotheses=(),
@@ -119,12 +120,23 @@ angle_r = sp.Symbol("r", real=True)
 parameter_l = (f_s + f_c + f_t) / sp.sin(angle_r)
 
 
+@paper.claim("6.parameter", "The additional resistance does not depend on the speed", "identity", r"f_a(s) = l(t)\sin(r(s))", "refuted",
+             severity="cosmetic", origin="implied", premises=("4",), rests_on=(),
+             reading="At one position and time the first case of (4) gives the same force at two speeds, as l(t) sin(r(s)) does.",
+             note="(6) gives f_a no speed, but by the first case of (4) f_a has the square of the speed in it. (6) holds where the "
+                  "tunnel term does not depend on the speed, or with an l that depends on v as well. Nothing depends on it: a "
+                  "bounded f_a is all that the proofs use.")
+def resistance_without_speed() -> Goal:
+    """The tunnel's force at two speeds."""
+    return Goal((equal(restricted_tunnel_force, restricted_tunnel_force.xreplace({v: v_other})),))
+
+
 @paper.claim("6", "The additional resistance as that of an equivalent slope", "implication", r"f_a(s) = l(t)\sin(r(s))", "proved",
-             premises=("5",), where={"f_a(s)": f_s + f_c + f_t, "l(t)": parameter_l, "r(s)": angle_r},
+             premises=("5", "6.parameter"), where={"f_a(s)": f_s + f_c + f_t, "l(t)": parameter_l, "r(s)": angle_r},
              reading="There are l(t) and r(s) for which (5) is (6): witnesses are any r(s) whose sine is not zero, and l(t) = "
                      "f_a/sin(r).",
-             note="As l may be any function of time, (6) says no more of f_a than that it is bounded, which is all that the "
-                  "proofs use. A fixed l, as M g, would not do for the first case of (4), where f_a depends on the speed.")
+             note="Along one run, l being any function of time. As a formula it holds only where f_a does not depend on the speed, see "
+                  "6.parameter.")
 def equivalent_slope() -> Goal:
     """(5) with the witnesses."""
     return Goal((equal(f_s + f_c + f_t, parameter_l * sp.sin(angle_r)),), (differ(sp.sin(angle_r), 0),))

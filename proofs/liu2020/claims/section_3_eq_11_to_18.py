@@ -171,8 +171,9 @@ size, theta_z = sp.symbols("z theta_z", real=True)
 @paper.claim("15.inside", "The input of the network stays in the set on which (15) holds", "implication",
              r"|\varepsilon_f(z)| \le \varepsilon_{f,N}\ \text{for}\ z \in \Omega \Rightarrow |\varepsilon_f(z(t))| \le "
              r"\varepsilon_{f,N}\ \text{for all}\ t", "gap", origin="implied",
-             note="Both theorems use the bound for all t, but that z stays in Omega is not shown, and cannot be concluded "
-                  "afterwards from bounds that use it. In the model: Omega = [-theta_z, theta_z], eps_f(z) = eps_N "
+             note="A bound of delta and theta for all t is needed: the mended forms of Theorem 1, (48) and Remark 2 have it as a "
+                  "condition. The printed proofs take eps_tilde_f itself for delta. That z stays in Omega is not shown, and cannot "
+                  "be concluded afterwards from bounds that use it. In the model: Omega = [-theta_z, theta_z], eps_f(z) = eps_N "
                   "z^2/theta_z^2.")
 def input_stays_inside() -> Goal:
     """An error that is bounded inside a set may be larger outside."""

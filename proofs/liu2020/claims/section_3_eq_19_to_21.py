@@ -96,7 +96,10 @@ def _undriven(estimate: sp.Expr, leak: int) -> sp.Expr:
 
 SIGMA = ("The last term is a sigma-correction, as the text before (35) calls it: it is to draw the estimate to its prior. "
          "With the printed plus sign the estimate leaves its prior exponentially. The sign is no slip of the pen: (39), "
-         "(42), (53) and (54) carry it on and apply Lemma 1, which is for the opposite estimation error, see 41.reversed.")
+         "(42), (53) and (54) carry it on and apply Lemma 1, which is for the opposite estimation error, see 41.reversed. The "
+         "conditions are those of the corrected law; the values of the finding are along the printed one, plus sign and all. "
+         "Mended are (19), (21), (32) and (35) by a minus before the leakage, and (32) by a plus before h_v e_v as well, see "
+         "32.cancels.")
 
 
 def leakage_claim(equation: str, name: str, law: str, corrected: str, decay: str, estimate: sp.Expr, prior: sp.Expr,

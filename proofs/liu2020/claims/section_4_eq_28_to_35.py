@@ -173,10 +173,12 @@ CANCELS = ERRORS | {"D_2": in_errors(robust_2)}
 @paper.claim("32.cancels", "The first term of (32) cancels the weights in the rate of V_2", "identity", LAW_32, "refuted",
              premises=("33.mended",), rests_on=(), scope=EVERY_NETWORK,
              where=CANCELS, correction=lambda: _learning(1),
-             corrected_statement=r"\dot{\hat W}_v = +\Gamma_vh_v(z_2)e_v " + CANCELLED,
+             corrected_statement=TURNED_32 + r",\quad \sigma_v = 0 " + CANCELLED,
              reading="What (53) needs of it, along the loop itself and without the leakage: the rate of the squares of e_v and "
                      "W_v_tilde in V_2 is then -k_5 e_v^2 + e_v (theta - D_2).",
-             note="With (33) as printed the terms cancel on paper; in the loop the law doubles the cross term, and the weights "
+             note="The conditions are those of the corrected law without the leakage; the values of the finding are along the printed "
+                  "one, w_v' = -e_v g_v h_v, and (33) corrected: the rate of (M/(2 chi)) e_v^2 + W_v_tilde^T Gamma_v^-1 W_v_tilde/2 "
+                  "against -k_5 e_v^2 + e_v (theta - D_2). With (33) as printed the terms cancel on paper; in the loop the law doubles the cross term, and the weights "
                   "diverge: a saddle, see 32.loop. For its last term, and (32) with both signs turned, see 32.leakage.")
 def tracking_weights_cancel() -> Goal:
     """With the law as printed."""

@@ -31,7 +31,7 @@ def _lemma_1(sign: int, factor: int = 1) -> Goal:
     return Goal((at_most(left, bound),) if factor == -1 else (equal(left, middle), at_most(left, bound)))
 
 
-@paper.claim("41", "Lemma 1", "inequality",
+@paper.claim("41", "Lemma 1 for truth minus estimate; for the paper's errors, estimate minus truth, it is false", "inequality",
              r"\tilde\theta^T(\hat\theta - \theta_0) = -\|\tilde\theta\|^2 + \tilde\theta^T(\theta - \theta_0) \le "
              r"-0.5\|\tilde\theta\|^2 + 0.5\|\theta - \theta_0\|^2", "proved", severity="result", rests_on=(),
              scope=EVERY_DIMENSION, where=LEMMA | {r"\hat\theta - \theta_0": x_off - x_tilde},
@@ -87,7 +87,7 @@ def lemma_2() -> Goal:
 known = sp.Symbol("delta_known", positive=True)
 
 
-@paper.claim("lemma2.glyph", "Lemma 2 with delta for kappa and for h delta, for a scalar x", "inequality",
+@paper.claim("lemma2.glyph", "Lemma 2 with delta in the place of kappa and of the product h delta, for a scalar x, all that is used", "inequality",
              r"h|x| - xh\tanh(\upsilon hx/\delta) \le \delta", "proved", origin="ours", glyph="lemma2",
              scope="x in one dimension, the case that the proofs use", where=LEMMA_2 | {r"\delta": known},
              premises=("lemma2.constant",))

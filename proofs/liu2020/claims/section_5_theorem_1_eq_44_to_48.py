@@ -38,6 +38,7 @@ paper.definition("44", "The bound mu_1 and the rate rho_1 of V_1",
 
 entry_1, entry_2 = sp.symbols("G_1 G_2", positive=True)
 W_1, W_2 = sp.symbols("W_1 W_2", real=True)
+GAMMA_U = " Gamma_u, which the paper does not define, is taken for Gamma_f."
 
 
 def weights_decay_claim(equation: str, net: str, sigma: sp.Expr, eigenvalue: sp.Expr, largest: sp.Expr, norm: sp.Expr,
@@ -59,7 +60,7 @@ def weights_decay_claim(equation: str, net: str, sigma: sp.Expr, eigenvalue: sp.
                  reading=f"An entry of rho is read by its use: a rho of at most sigma_{net}/lambda_min is the rate of the weights."
                          + (" Gamma_u is taken for Gamma_f." if net == "f" else ""),
                  note="The largest eigenvalue belongs here; the two agree only for a gain that is a multiple of the "
-                      "identity. Costs speed, not the theorem.")
+                      "identity. Costs speed, not the theorem." + (GAMMA_U if net == "f" else ""))
     def weights_decay() -> Goal:
         return Goal((at_most(-sigma / 2 * (W_1**2 + W_2**2), -rho / 2 * (entry_1 * W_1**2 + entry_2 * W_2**2)),),
                     (equal(eigenvalue, entry_1), at_most(entry_1, entry_2), at_most(rho * eigenvalue, sigma)))
@@ -86,7 +87,8 @@ def _estimate_decay(rate: sp.Expr) -> Goal:
              reading="As the entry of the weights: a rho of at most beta_1/alpha_1 is the rate of the estimate.",
              correction=lambda: _estimate_decay(alpha_1 * beta_1),
              corrected_statement=r"\rho \le \alpha_1\beta_1 \Rightarrow " + DELTA_DECAY,
-             note="Fails for alpha_1 < 1. (56) has the right entry, alpha_1 beta_1.")
+             note="Fails for alpha_1 < 1. (56) has the right entry, alpha_1 beta_1. With that of the weights corrected as well, the "
+                  "minimum in (44) is of 2 k_1, 2 k_3, sigma_f/lambda_max(Gamma_f^-1) and alpha_1 beta_1.")
 def estimate_decay() -> Goal:
     """With the entry of (44)."""
     return _estimate_decay(beta_1 / alpha_1)

@@ -32,7 +32,8 @@ def decay_turned() -> Goal:
                  bounded_by_eigenvalue(square_f, norm_f, largest_f)), free_1)
 
 
-@paper.claim("48.mended", "V_1 comes as near to phi_1 as is wanted, with the leakage turned, (40), delta constant and (44) corrected",
+@paper.claim("48.mended", "V_1 comes as near to phi_1 as is wanted, with the leakage turned, (40), (44) corrected and a constant delta that bounds "
+             "|eps_tilde_f| for all t",
              "implication",
              TURNED_1 + r"\forall c > 0\ \exists T\ \forall t > T:\ \tilde s^2 + \tilde v^2 + \tilde W_f^T\Gamma_f^{-1}\tilde W_f "
              r"+ \tfrac{1}{\alpha_1}\tilde\delta^2 \le 2\left(\frac{\mu_1}{\rho_1} + c\right)", "proved", origin="ours",
@@ -63,7 +64,7 @@ def arbitrarily_small() -> Goal:
                  equal(-k_2 + k_1 * k_3 + 1, 0)), witness)
 
 
-@paper.claim("remark2.mended", "Remark 2 with the leakage turned and one delta for all gains", "implication",
+@paper.claim("remark2.mended", "Remark 2 with the leakage turned, if one delta bounds |eps_tilde_f| for all t and all gains", "implication",
              r"\text{With a minus sign before the leakage of (19) and (21) and one constant}\ \delta \ge |\tilde\varepsilon_f|\ "
              r"\text{for all gains and times}, \delta_0, W_{f0}, \kappa_1\ \text{fixed}: \forall r > 0\ \text{there are gains with}\ \frac{\mu_1}{\rho_1} \le "
              r"\tfrac{r^2}{4},\ \text{and from some time on}\ |\tilde s| \le r,\ |\tilde v| \le r", "proved", origin="ours",

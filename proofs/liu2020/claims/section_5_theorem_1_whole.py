@@ -84,7 +84,7 @@ LAW_1 = (r"\text{With a minus sign before the leakage of (19) and (21), a consta
 BOUND_1 = r"2\left(\frac{\mu}{\rho} + c\right)"
 
 
-@paper.claim("theorem1.mended", "Theorem 1 with the leakage turned", "implication",
+@paper.claim("theorem1.mended", "Theorem 1 with the leakage turned, if a constant delta bounds |eps_tilde_f| for all t", "implication",
              LAW_1 + r"\text{for every}\ c > 0\ \text{from some time on}\ (k_2 + k_1k_3)\tilde s^2 \le " + BOUND_1 +
              rf",\ \tilde v^2 \le {BOUND_1},\ \tilde W_f^T\Gamma_f^{{-1}}\tilde W_f \le {BOUND_1},\ \tilde\delta^2 \le "
              rf"\alpha_1 \cdot {BOUND_1}", "proved", origin="ours", mends="theorem1", severity="result", rests_on=(),

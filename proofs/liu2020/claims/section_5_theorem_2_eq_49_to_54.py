@@ -104,7 +104,8 @@ MENDED_52 = LETTERS_52 | {r"\varepsilon_v(z_2)": r_v + M / chi * d}  # theta any
              scope=EVERY_NETWORK, where=LETTERS_52, correction=lambda: _rate_52(-1, r_v),
              corrected_statement=r"\dot\theta = 0:\quad " + _printed_52("-"),
              reading="The second bracket has z_2 where (32) has e_v, which is read; theta_tilde moves as theta_hat does.",
-             note="The sign of (33): W_v_tilde^T h_v enters with minus.")
+             note="The sign of (33): W_v_tilde^T h_v enters with minus. The extracted text has h_v(z_2) z_2 in the second bracket; "
+                  "e_v is read, as (32) has it.")
 def v2_rate_laws() -> Goal:
     """D(V_2) along the closed loop as printed, for any rates of the observer's errors."""
     return _rate_52(1, theta, h_limited=True)

@@ -36,7 +36,7 @@ def theorem_2() -> Goal:
     return tracking_motion(at_most(theta_tilde, t), width=1)
 
 
-errors_vanish(2, "60", ("43", "55.first"))
+errors_vanish(2, "60", ("28", "43", "55.first"))
 
 
 mu_tracking = positive(mu_2_stated - mu_1_stated)
