@@ -89,7 +89,8 @@ def theorem_1() -> Goal:
     return control_bounded()
 
 
-@paper.claim("theorem1.mended", "Theorem 1 for bounded x_m, x_m' and x_m''", "implication",
+@paper.claim("theorem1.mended", "Theorem 1 with the error tending to zero as printed, and all signals bounded for bounded x_m, "
+             "x_m' and x_m''", "implication",
              r"\text{Theorem 1: } \lim_{t\to\infty} e(t) = 0\text{, and}\ z_1, z_2\ \text{and all estimates are bounded; all signals are, if}\ "
              r"x_m, \dot x_m\ \text{and}\ \ddot x_m\ \text{are}", "proved", origin="ours", mends="theorem1", severity="result",
              premises=("38", "25", "25.switch", "filippov", "theorem1.bounded", "theorem1.rate", "theorem1.F.mended", "barbalat"),

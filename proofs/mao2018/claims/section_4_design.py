@@ -244,7 +244,9 @@ def disturbance_outweighed_failed() -> Goal:
                   "the estimate stands as -rho_knu_hat xi_hat^T varpi; in the pattern of (37) its law is then the one with a plus, "
                   "and with that the terms cancel. The extracted text has a clear minus in (44), as in (54) and (61); the printed "
                   "page was not looked at. Three faults break (45), (51), (57) and (65), each by itself: this sign, k_nu missing in "
-                  "the weights of (40), see 37.failures, and the sum of m_i over the modes in (40), see the display before (42). The sign alone refutes Theorems "
+                  "the weights of (40), see 37.failures, and the sum of m_i over the modes in (40), see the display before (42). "
+                  "The sign of (54) breaks (57) as well. The list of the lines that rest on the causes does not name for each "
+                  "line all that would break it. The sign alone refutes Theorems "
                   "2 to 5: the motions below have one mode, and V_2, with its weights, is no part of the loop.")
 def rho_k_law_cancels() -> Goal:
     """At any weight."""
