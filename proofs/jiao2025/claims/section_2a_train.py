@@ -139,9 +139,9 @@ def trial_difference_with_places() -> Goal:
     return Goal((equal(there, secant * (v_i - v_prev) + T_s / M * (u_i - u_prev - (f_a_i - f_a_prev))),))
 
 
-@paper.claim("remark4", "Remark 4: the output does not fall when the input rises", "inequality",
-             r"\text{the system's output does not decrease when the control input increases}", "proved", premises=("A1",), match="words",
-             reading="Decided for the train: v(k+1) has a positive derivative by u(k).",
+@paper.claim("remark4", "Remark 4: the output does not fall when the input at k alone rises", "inequality",
+             r"\text{the system's output does not decrease when the control input increases}", "proved", premises=("A1",), match="words", section="3",
+             reading="Decided for the train: v(k+1) has a positive derivative by u(k), at the same v(k).",
              note="True of the train, whose control direction is known. It is not Assumption 4, which Remark 4 reads it off and calls reasonable for many practical systems: "
                   "phi_c of (5) is not this derivative, see A4.train.")
 def control_direction() -> Goal:

@@ -219,7 +219,7 @@ KEPT = r"\hat\phi_c(k,i) \ge \min(\varepsilon, \hat\phi_c(k,1)) > 0"
 @paper.claim("13.keeps", "After (13) the estimate is positive and away from zero", "implication", KEPT, "gap",
              premises=("13",), origin="implied", reading="What Theorem 1 needs of (13), with phi_c > 0; decided as the least of it, that the estimate is positive. An estimate in use is the first one, where a test fires, or has passed the three tests.",
              note="It holds when the first estimate is positive, 13.mended, which the paper does not ask for: the control direction is known, by Remark 4, but phi_hat(k,1) is stated nowhere, not in section 4 "
-                  "either. With phi_hat(k,1) = 0 the estimate is 0 for ever; with a negative one it stays negative.")
+                  "either. With phi_hat(k,1) = 0 the estimate is 0 for ever; with a negative one it stays negative. The Conclusion needs it too, as its analysis is Theorem 1 and its mended form asks for phi_hat(k,1) > 0; it is not named above because it fails with a positive estimate as well.")
 def reset_keeps_away() -> Goal:
     """A reset to a first estimate of any size and sign."""
     return _kept(greater(after_reset, 0))

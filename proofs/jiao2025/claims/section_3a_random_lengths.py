@@ -145,19 +145,19 @@ def bernoulli_mean() -> Goal:
     return Goal((equal(gamma_mean, p_k),), (equal(gamma_mean, reached * p_k + missed * (1 - p_k)), equal(reached, 1), equal(missed, 0)))
 
 
-def _modified(equation: str, latex: str, starred: sp.Symbol, plain: sp.Symbol, note: str) -> None:
+def _modified(equation: str, latex: str, starred: sp.Symbol, plain: sp.Symbol, note: str, section: str = "3", place: str = "") -> None:
     """Both lines of the cases of a modified quantity, from its definition gamma times the quantity."""
     reading = f"With the definition {latex}* = gamma {latex} that stands above it, gamma being 1 just for k <= T_i.".replace("\\", "")
     names = {rf"{latex}^*(k, i)": starred, rf"{latex}(k, i)": plain, "T_i": length_i}
     definition = equal(starred, gamma * plain)
 
-    @paper.claim(equation, "What a trial has reached counts as it is", "identity",
-                 rf"{latex}^*(k, i) = {latex}(k, i), \quad \text{{if }} k \in [0, T_i]", "proved", where=names, reading=reading, note=note)
+    @paper.claim(equation, f"{place}What a trial has reached counts as it is", "identity",
+                 rf"{latex}^*(k, i) = {latex}(k, i), \quad \text{{if }} k \in [0, T_i]", "proved", where=names, section=section, reading=reading, note=note)
     def with_data() -> Goal:
         return Goal((equal(starred, plain),), (definition, equal(gamma, 1), at_least(sample, 0), at_most(sample, length_i)))
 
-    @paper.claim(f"{equation}.ended", "What a trial has not reached counts as zero", "identity",
-                 rf"{latex}^*(k, i) = 0, \quad \text{{if }} k \in [T_i + 1, T_d]", "proved", where=names, reading=reading, note=note)
+    @paper.claim(f"{equation}.ended", f"{place}What a trial has not reached counts as zero", "identity",
+                 rf"{latex}^*(k, i) = 0, \quad \text{{if }} k \in [T_i + 1, T_d]", "proved", where=names, section=section, reading=reading, note=note)
     def without_data() -> Goal:
         return Goal((equal(starred, 0),), (definition, equal(gamma, 0), at_least(sample, length_i + 1), at_most(sample, T_d)))
 
@@ -180,4 +180,4 @@ _definition("15.definition", r"\xi", xi_star, xi)
 _modified("14.error", "e", e_now, e_i, "gamma(k,i) = 1 just for k <= T_i, as the event is described. That gamma is Bernoulli, the "
           "reason given, would not suffice: the gammas of one trial are not independent of one another.")
 _modified("15.innovation", r"\xi", xi_star, xi, "As 14.error.")
-_modified("18.error", "e", e_now, e_i, "14.error once more, for the law of the comparison.")
+_modified("18.error", "e", e_now, e_i, "14.error once more, for the law of the comparison.", "4", "The text after (18): ")

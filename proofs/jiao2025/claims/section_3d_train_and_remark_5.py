@@ -47,8 +47,8 @@ def error_doubles() -> Goal:
              premises=("5.trials", "14"), rests_on=("theorem1", "remark2.inherent", "A4.train"), severity="result", match="words",
              reading="The analysis is Theorem 1's, by which no trial with data makes the error of a sample larger. Asked of the train (1)-(3), of which section 5 speaks, with T_s/M of section 4, a positive "
                      "estimate and lambda > rho^2 p^2/4 for p = T_s/M.",
-             note="The train meets neither Assumption 2 nor Assumption 4, so that Theorem 1 does not speak of it: an error can grow because of what earlier inputs did, for every lambda (theorem1.train.lambda). The limit "
-                  "itself holds for the train where 0 <= a <= 1 in all trials, by another proof: theorem1.train. The way there need not be monotone: for u in N/kg one trial can multiply the error norm by ten (intro.growth), "
+             note="The analysis, Theorem 1, rests on a positive estimate as well (13.keeps); asked here with one, so that it fails even then. The train meets neither Assumption 2 nor Assumption 4, so that Theorem 1 does not speak of it: an error can grow because of what earlier inputs did, for every lambda (theorem1.train.lambda). The limit "
+                  "itself holds for the train where 0 <= a <= 1 in all trials and phi_hat(k,1) > 0, among other conditions, by another proof: theorem1.train. The way there need not be monotone: for u in N/kg one trial can multiply the error norm by ten (intro.growth), "
                   "while section 1 says of the method that it converges monotonically in the 2-norm.")
 def analysis_of_the_train() -> Goal:
     """5.trials with (14), where the error is positive."""
@@ -109,7 +109,7 @@ start_effect = sp.Symbol("x_start", real=True)
 small_change = sp.Symbol("h", nonnegative=True)
 
 
-@paper.claim("remark5.mended", "For the systems of Theorem 1 no start enters the error of the first sample", "implication",
+@paper.claim("remark5.mended", "Where Assumption 2 holds for any two runs no start enters the error of the first sample", "implication",
              r"\text{Assumption 1, Assumption 2 for any two runs} \Rightarrow e(1,i) = \left(1 - \gamma(1,i-1)\frac{\rho\phi_c\hat\phi_c}{\lambda + \hat\phi_c^2}\right)e(1,i-1)\ \text{for all}\ v(0,i), v(0,i-1)",
              "proved", premises=("6.unchanged", "14"), rests_on=(), origin="ours", severity="result", mends="remark5",
              reading="x_start, what the two starts make v(1) differ by at the same input, is at most (p + L_u) h for every h, by 6.unchanged: here for the h with 2 (p + L_u) h = |x_start|.",

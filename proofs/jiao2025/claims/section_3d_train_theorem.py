@@ -97,9 +97,9 @@ power_of_r = sp.Symbol("theta_r", nonnegative=True)  # r^(i-1)
 z_now, z_with, z_without = sp.symbols("z z_with z_without", nonnegative=True)
 
 
-@paper.claim("theorem1.train", "The train's expected errors converge, sample after sample", "limit",
+@paper.claim("theorem1.train", "The train's expected errors converge where 0 <= a <= 1 in all trials, the starts v(0,i), s(0,i) are equal, f_a is Lipschitz in the place, phi_hat(k,1) > 0, and the lengths are independent of each other and of all else", "limit",
              r"\text{(1)-(3)},\ 0 \le a \le 1\ \text{at all}\ k, i,\ |\Delta f_a| \le L|\Delta s|,\ \text{the same } v(0,i), s(0,i),\ \rho, \eta \in (0, 1],\ \mu > 0,\ \hat\phi_c(k,1) > 0,\ "
-             r"\lambda > \tfrac{1}{16}\rho^2\tfrac{T_s^2}{M^2},\ T_0, T_1, \ldots\ \text{independent, each as in Assumption 3},\ 0 < p(k) \le 1 \Rightarrow "
+             r"\lambda > \tfrac{1}{16}\rho^2\tfrac{T_s^2}{M^2},\ T_0, T_1, \ldots\ \text{independent of each other and of all else that is random, each as in Assumption 3},\ 0 < p(k) \le 1 \Rightarrow "
              r"E|e(k,i)| \le C_kr_k^i \to 0,\ k \ge 1", "proved", premises=("theorem1.train.mean", "theorem1.train.sum", "theorem1.train.estimate", "13.mended", "theorem1.lambda", "theorem1.low", "gamma.positive", "A3.independent.mended"),
              rests_on=(), scope=EVERY_LENGTH, origin="ours", severity="result", mends="conclusion",
              reading="The step of the induction over i at a sample, and what it hands on to the next: with c = 1 - p(k+1)d < r < 1 and E D(k,i) <= Z r^i it is E|e(k+1,i)| <= C r^i and E|Delta v(k+1,i)| <= 2C r^(i-1), "
