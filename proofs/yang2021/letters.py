@@ -87,7 +87,6 @@ LETTERS = {
     "g_hat": r"$\hat a + \hat b x_2 + \hat c x_2^2 - \hat f$",
     "e_max": "the largest $|e_1|$ that is told of Figure 9",
     "a_d": r"$\ddot x_d$",
-    "edot_1": r"$\dot e_1$",
     "u_max": "the size of the input that the text tells outside 52 s to 248 s",
     "T_s": "the sampling period",
     "v_c": "the speed of cruising",

@@ -119,7 +119,7 @@ def test_the_bound_of_52_over_the_stated_run():
 
 
 def test_the_command_of_33_at_the_printed_error():
-    """Claim 33.figures: the least size of the input with what is taken of the estimates and the curve, behind and ahead."""
+    """Claim 33.figures: the least size of the input, behind and ahead, with what is taken of estimates and curve."""
     rate, estimates, acceleration = (axis.ravel() for axis in np.meshgrid(*(
         np.linspace(*ends, 21) for ends in ((-0.26, 0.26), (0, 1), (-1, 1)))))
 
