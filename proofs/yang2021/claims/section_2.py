@@ -91,9 +91,9 @@ rest_bound = sp.Symbol("gamma", positive=True)
 
 @paper.claim("A1", "Assumption 1: the train of (4) is input-to-state stable", "inequality",
              r"\text{The dynamics system of train operation given in Equation (4) is an input-state stable system.}", "refuted",
-             match="words", reading="A train that a bounded input holds at rest is, wherever it stands, within a bound gamma that the input alone gives.",
+             match="words", reading="A train that a bounded input holds at rest is, wherever it stands, within a bound gamma that the input alone gives, for some gamma > 0.",
              note="The position is a pure integral of the speed. What is shown for gamma = 1 holds for every gamma: held by u = a* - f the train of (4) rests at x_1 = gamma + 1 (A1.every). "
-                  "As Theorem 1 supposes 'all assumptions', it speaks of no train with this one, which should be struck: its proof does not use it.")
+                  "As Theorem 1 supposes 'all assumptions', it speaks of no train with this one, which should be struck. No proof uses it, in the text or here: with it struck the theorem holds.")
 def position_is_bounded() -> Goal:
     """The position of a train at rest in (4)."""
     return Goal((at_most(sp.Abs(x_1), rest_bound),), (equal(x_2, 0), equal(D(x_2), 0)),

@@ -165,12 +165,12 @@ def f_is_known() -> Goal:
 one_h = sp.Symbol("h", positive=True)
 
 
-@paper.claim("37.weights", "The laws of the weights, (10) with (11) and (37), agree", "implication",
-             r"\hat{f} = f,\ \Delta w_j = \eta[f - \hat{f}]h_j = 0 \Rightarrow \dot{\hat{W}} = \chi e_2h - \chi\hat{W} = 0", "gap", origin="implied",
+@paper.claim("37.weights", "One W-hat obeys both laws that are given for it, (10) with (11) and (37)", "implication",
+             r"\text{(10) with (11), and (37), are both given for } \hat{\mathbf{W}};\ \text{section 6.1 sets } \eta, \text{ the momentum factor and } \chi", "gap", origin="implied", match="words",
              severity="data", section="6.1",
-             reading="Section 6.1 states eta and the momentum factor of (10) to (15) beside chi of (37) and calls none of them off: laws of the same weights leave these as they are "
-                     "at the same instants. Where the network fits f exactly the step of (10) is zero, whatever length of time it stands for.",
-             note="They are two laws: where the network is exact, (10) leaves the weights as they are and (37) draws them to zero. (10) to (15) also need f, which is unknown (10.measured), "
+             reading="Section 6.1 states eta and the momentum factor of (10) to (15) beside chi of (37) and does not say which ran. Were both to hold of the same weights, these would be left "
+                     "as they are at the same instants. Where f-hat = f and the weights rest, w_j(t-1) = w_j(t-2), the step of (10) and (11) is zero, whatever length of time it stands for.",
+             note="They are two laws: where f-hat = f and the weights rest, (10) and (11) leave them and (37) does not. (10) to (15) also need f, which is unknown (10.measured), "
                   "and move centers and widths, with which W* would move (8.fixed). Theorem 1 is of (37) with fixed centers and widths: (37) should be named as the law of the weights, "
                   "and (10) to (15) be no part of the controller.")
 def one_law() -> Goal:

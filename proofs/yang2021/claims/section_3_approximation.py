@@ -44,7 +44,7 @@ paper.axiom("8", "The best weights exist",
              at={slope_before: grade_before, slope_after: grade_after}, match="words",
              reading="What continuous functions approximate with any precision is continuous, and so is the slope, in per mille, where the curve stays as it is, at 29,900 m of Table 1: "
                      "what stands before that border stands behind it.",
-             note="f steps there as the slope does, by 9.81 times 5.5/1000 or some 0.054 m/s^2, so that eps* is at least 0.027 m/s^2 whatever the network is (7.error). What falls is 'any "
+             note="It holds for continuous f; the slope of Table 1 jumps, so that f is not continuous and no network is nearer than half a jump. f steps there as the slope does, by 9.81 times 5.5/1000 or some 0.054 m/s^2, so that eps* is at least 0.027 m/s^2 whatever the network is (7.error). What falls is 'any "
                   "precision' and that eps* is small; (7) is not touched, it says what eps is, nor is Theorem 1, for which any bound will do (7.bounded). Section 3 says it itself at "
                   "first: 'any smooth function'.")
 def resistance_is_continuous() -> Goal:

@@ -59,12 +59,12 @@ def _printed(name: str) -> dict[sp.Expr, Fraction]:
 table_values = {symbol: value for name in NAMES for symbol, value in _printed(name).items()}
 
 
-@paper.claim("table2", "RBFNN-POCRAC is the best of Table 2 in every column", "condition",
+@paper.claim("table2", "By its printed entries RBFNN-POCRAC is the best of Table 2 in every column", "condition",
              r"\text{the RBFNN-POCRAC controller had the best position and speed tracking performance and the highest parking "
-             r"accuracy}", "proved", rests_on=OF_RUNS, match="words", at=table_values,
+             r"accuracy}", "proved", rests_on=(), match="words", at=table_values,
              reading="Its ranges of position and speed error lie within those of each of the three others, and its stopping "
                      "accuracy is the smallest.",
-             note="Of the printed numbers alone; what runs give stands in the study.")
+             note="Of the printed numbers alone; whether they come from the printed loop is open (33.figures, 37.weights).")
 def best_of_the_table() -> Goal:
     """The four ranges within each other and the stopping accuracies in order."""
     best, shown = _columns(NAMES[0]), list[Relation]()
@@ -76,8 +76,8 @@ def best_of_the_table() -> Goal:
     return Goal(tuple(shown))
 
 
-@paper.claim("table2.band", "The position errors of RBFNN-POCRAC and POCRAC in Table 2 keep the constraint of 0.2 m", "condition",
-             r"\text{the maximum position error is constrained as } e_1(t) = 0.2", "proved", rests_on=OF_RUNS, match="words",
+@paper.claim("table2.band", "The printed position errors of RBFNN-POCRAC and POCRAC in Table 2 keep the constraint of 0.2 m", "condition",
+             r"\text{the maximum position error is constrained as } e_1(t) = 0.2", "proved", rests_on=(), match="words",
              at={symbol: value for name in NAMES[:2] for symbol, value in _printed(name).items()} | {
                  sp.Symbol("k_stated", positive=True): stated_k},
              reading="The errors of RBFNN-POCRAC and POCRAC over 100 runs are at most 0.2 m in size, and below k.")
@@ -92,11 +92,11 @@ def _width(name: str) -> sp.Expr:
     return _columns(name)["v_high"] - _columns(name)["v_low"]
 
 
-@paper.claim("table2.speed", "The speed errors of the four controllers in their order", "condition",
+@paper.claim("table2.speed", "The printed speed errors of the four controllers are in the order that the text tells", "condition",
              r"\text{the train running speed error of the RBFNN-POCRAC controller was the smallest, and the train running speed "
              r"error and fluctuation of the PID controller were the largest. [...] RBFNN-PID control obviously alleviated the speed "
              r"error, but it was still greater than the speed tracking error of the POCRAC controller and RBFNN-POCRAC controller}",
-             "proved", rests_on=OF_RUNS, match="words", at=table_values,
+             "proved", rests_on=(), match="words", at=table_values,
              reading="Said of Figure 10; by the widths of the speed errors' ranges in Table 2.")
 def speed_errors_in_order() -> Goal:
     """RBFNN-POCRAC below POCRAC below RBFNN-PID below PID."""
@@ -104,9 +104,9 @@ def speed_errors_in_order() -> Goal:
     return Goal((less(first, second), less(second, third), less(third, last)))
 
 
-@paper.claim("table2.position", "The position errors of PID and RBFNN-PID are far above 0.2 m", "condition",
+@paper.claim("table2.position", "The printed position errors of PID and RBFNN-PID are far above 0.2 m", "condition",
              r"\text{PID control and RBFNN-PID control exhibited a large position error [...], being far greater than the 0.2 m "
-             r"position error defined in this article}", "proved", rests_on=OF_RUNS, match="words",
+             r"position error defined in this article}", "proved", rests_on=(), match="words",
              at={symbol: value for name in NAMES[2:] for symbol, value in _printed(name).items()},
              reading="Said of Figure 9; in Table 2 both ends of their ranges are more than twice as large.")
 def position_errors_of_pid() -> Goal:
