@@ -38,7 +38,7 @@ paper.axiom("8", "The best weights exist",
             note="For a bounded f, and for fixed centers and widths: 8.fixed.")
 
 
-@paper.claim("7.continuous", "The text before (7): the network approximates f with any precision", "condition",
+@paper.claim("7.continuous", "The text before (7): the network approximates the f of Table 1 with any precision", "condition",
              r"\text{RBFNN can approximate the unknown nonlinear additional resistance and interference function with any precision in the "
              r"compact working domain}", "violated",
              at={slope_before: grade_before, slope_after: grade_after}, match="words",

@@ -108,7 +108,7 @@ def distance_from_barrier() -> Goal:
                 (inside, at_most(V_1, level)), facts=(2 * level - sp.log(barrier),))
 
 
-@paper.claim("theorem1", "Theorem 1: with Assumption 1 struck, which no proof uses, the tracking error converges to a neighbourhood set by the gains, and the loop is stable",
+@paper.claim("theorem1", "Theorem 1: with Assumption 1 struck, which no train of (4) meets and no proof uses, the tracking error converges to a neighbourhood set by the gains, and the loop is stable",
              "implication",
              r"\text{the tracking error will converge to a small enough neighborhood quantified by the designed control "
              r"parameter, whereby the FAO is stable}", "proved", severity="result", match="words", scope=EVERY_NETWORK,

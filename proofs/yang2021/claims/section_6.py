@@ -135,8 +135,8 @@ def _least_command() -> Goal:
              reading="(33) at the largest position error that the text tells, 0.142 m at 158 s, whose sign is not stated, with the gains of section 6.1 and a speed error of at most 0.26 m/s. "
                      "Taken here and not printed: the estimates in (33) sum up to 0 to 1 m/s^2, and the desired acceleration is at most 1 m/s^2 in size.",
              note=f"The last term of (33) is {barrier_at(0.142):.1f} m/s^2 in size there. The text gives 0.48 m/s^2 at the start and about 0.6 on the common section, and no size for 52 s to 248 s, "
-                  "in which the 158 s lie: only Figure 8 could show it. Please print the input there. (37) and the laws of the estimates do not bound their sum by 1 m/s^2; unless it made "
-                  "up some 4 m/s^2, the reported errors fit another loop or other gains. Near 0 the last term is a spring of 1/k^2, which balances the "
+                  "in which the 158 s lie: only Figure 8 could show it. Please print the input there. (37) and the laws of the estimates do not bound their sum by 1 m/s^2; unless it is "
+                  "more than 4 m/s^2 in size, the reported errors fit another loop or other gains. Near 0 the last term is a spring of 1/k^2, which balances the "
                   f"{float(STATED_F_STAR)} m/s^2 of Table 1 at {float(STATED_F_STAR) * 1000 * float(stated_gains[k])**2:.0f} mm.")
 def printed_figures_fit() -> Goal:
     """The size of the input at the error of one sign."""
