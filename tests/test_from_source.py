@@ -371,3 +371,14 @@ def test_a_rate_that_a_lemma_claims_moves_nothing_and_a_display_of_tex_hides_no_
 @pytest.mark.parametrize("text", ["where\n\n,\n\n", "## References\n\n..\n\n", ", .\n\n"])
 def test_a_sentence_of_marks_alone_says_nothing(text):
     assert len(read_source(f"We have\n\n$$x^2 \\ge 0$$\n\n{text}and\n\n$$y^2 \\ge 0$$\n").rows) == 2
+
+
+def test_rows_of_the_running_text_have_ids_that_no_tag_has(tmp_path):
+    (tmp_path / "paper.tex").write_text(r"""\documentclass{article}\begin{document}
+Let $k > 1$ be a constant and let $e = 2 x$. Consider the system $\dot x = -x$, where $x \in \mathbb{R}$ is the state.
+\begin{equation} \tag{bound1} x^2 \ge 0 \end{equation} \begin{equation} \tag{text1} e^2 \ge 0 \end{equation}
+\begin{equation} \tag{motion1} k e^2 \ge 0 \end{equation}\end{document}""")
+    found = write_from_source("tagged2029", tmp_path, tmp_path / "paper.tex")
+    printed = {row: one.printed for row, one in rows_of(found.folder).items()}
+    assert printed["text1"] == r"e^2 \ge 0" and printed["text1-text"] == "e = 2 x"
+    assert printed["motion1-text"] == r"\dot x = -x" and printed["bound1-text"] == "k > 1"

@@ -134,6 +134,7 @@ def rows_and_letters(found: Source) -> tuple[list[RowEntry], dict[str, LetterEnt
     limits = found.said.limits()
     bounded = [RowEntry(id=f"bound{number}", title=f"Bound {number} in the text", role="assumption", printed=formula)
                for number, formula in enumerate(bounds_said(facts), len(limits) + 1)]
+    bounded = _own(bounded, rows)
     said = letters_with_what_follows([*bounded, *rows], facts, found.text)
     unclear = unclear_bounds(facts, [row.printed for row in bounded],
                              [letter for letter, entry in said.items() if entry.role == "constant"])
@@ -219,11 +220,22 @@ def _cases(printed: str) -> list[str]:
 def _with_text(rows: list[RowEntry], text: str, limits: list[str]) -> list[RowEntry]:
     """The rows, behind what the running text alone says of their letters: values, rates, and bounds."""
     moves = [found[1] for found in _MOVED.finditer(text)]
-    return _with_definitions([
-        *(RowEntry(id=f"motion{number}", title=f"Motion {number} in the text", role="claim", printed=one)
-          for number, one in enumerate(moves, 1)),
-        *(RowEntry(id=f"bound{number}", title=f"Bound {number} in the text", role="assumption", printed=one)
-          for number, one in enumerate(limits, 1)), *rows], text)
+    said = [*(RowEntry(id=f"motion{number}", title=f"Motion {number} in the text", role="claim", printed=one)
+              for number, one in enumerate(moves, 1)),
+            *(RowEntry(id=f"bound{number}", title=f"Bound {number} in the text", role="assumption", printed=one)
+              for number, one in enumerate(limits, 1))]
+    return _with_definitions([*_own(said, rows), *rows], text)
+
+
+def _own(said: list[RowEntry], rows: list[RowEntry]) -> list[RowEntry]:
+    """Rows of the running text with ids that no printed row has, whatever an author's tags are."""
+    taken, found = {row.id for row in rows}, []
+    for row in said:
+        id_ = row.id
+        while id_ in taken:
+            id_ += "-text"
+        found.append(row.model_copy(update={"id": id_}))
+    return found
 
 
 def _with_definitions(rows: list[RowEntry], text: str) -> list[RowEntry]:
@@ -235,8 +247,9 @@ def _with_definitions(rows: list[RowEntry], text: str) -> list[RowEntry]:
     while more := [one for one in known if one not in used and any(one in letters_of_text(line) for line in lines)]:
         used += more
         lines += [known[one] for one in more]
-    return [*(RowEntry(id=f"text{number}", title=f"Definition {number} in the text", role="claim", printed=known[one])
-              for number, one in enumerate(used, 1)), *rows]
+    said = [RowEntry(id=f"text{number}", title=f"Definition {number} in the text", role="claim", printed=known[one])
+            for number, one in enumerate(used, 1)]
+    return [*_own(said, rows), *rows]
 
 
 def rows_text(rows: list[RowEntry]) -> str:

@@ -14,6 +14,7 @@ from workbench.paper.source.letters import (
     table_of,
     valued_elsewhere,
 )
+from workbench.paper.source.reading import DEFINE, MOVE
 from workbench.proof.latex.rows import LetterEntry, RowEntry, text_of
 from workbench.proof.latex.scalars import scalar_letters
 from workbench.proof.latex.sides import letters_of_text, moving_sides, sides_of
@@ -55,7 +56,7 @@ def _signed_alone(facts: str) -> Iterator[str]:
     other: set[str] = set()
     signed: set[str] = set()
     for fact in (part for whole in facts.split("\n\n")
-                 if not whole.startswith(("Define", "Move")) for part in _parts(whole)):
+                 if not whole.startswith((DEFINE, MOVE)) for part in _parts(whole)):
         formulas = [inline[1] or inline[2] for inline in INLINE.finditer(fact)]
         kinds = [dict(kinds_in(one.strip(" .,;"))) for one in formulas]
         bare = not INLINE.sub(" ", fact).strip(" .,;") and all(one and "real" not in one.values() for one in kinds)
