@@ -35,9 +35,10 @@ from workbench.files.time_limit import OutOfTime, at_most_seconds
 from workbench.proof.building import built
 from workbench.proof.checker import CertificateError, margin, read_goal
 from workbench.proof.claim import FAILED, Claim, Goal, Kind, name_of
-from workbench.proof.decide.engine import decide, pinned, prove_goal
+from workbench.proof.decide.engine import decide, prove_goal
 from workbench.proof.mutate import KINDS, Mutation, mutations
 from workbench.proof.paper import collect_papers
+from workbench.proof.pinned import pinned
 from workbench.proof.text import goal_text, relation_text
 from workbench.tasks.handing_out import run_tasks
 

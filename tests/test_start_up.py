@@ -82,6 +82,18 @@ def test_an_unchanged_paper_is_told_without_expressions_numbers_or_other_process
     assert names <= {"workbench.proof.document", "rich.progress"}
 
 
+def test_certificates_are_held_against_their_claims_without_any_solver_or_decider():
+    names = {*HEAVY, "workbench.proof.decide.engine"} - {"sympy"}
+    program = "import json, sys; from pathlib import Path; from workbench.proof.at_hand import papers_at_hand; " \
+        "from workbench.proof.binding import check_claims; found = papers_at_hand(Path(sys.argv[1]), []); " \
+        "bound = sum(check_claims(*each)[1] for each in found.items()); print(json.dumps([bound, [*sys.modules]]))"
+    done = subprocess.run([sys.executable, "-c", program, SHARED.parent / "proofs"], check=True, capture_output=True,
+                          text=True, timeout=300)
+    bound, there = json.loads(done.stdout)
+    assert bound > 0
+    assert names.isdisjoint(there)
+
+
 def test_a_small_comparison_needs_no_page_no_other_verb_and_no_other_process(tmp_path):
     folder = small_folder(tmp_path / "doe2030")
     code, names = imported("compare", folder)

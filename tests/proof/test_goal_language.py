@@ -7,8 +7,9 @@ import sympy as sp
 
 from workbench.errors import ClaimError
 from workbench.proof.claim import Claim, D, Goal, at_least, at_most, equal, greater
-from workbench.proof.decide.engine import decide, decide_all, pinned, prove_goal
+from workbench.proof.decide.engine import decide, decide_all, prove_goal
 from workbench.proof.decide.refute import find_counterexample
+from workbench.proof.pinned import pinned
 from workbench.proof.text import goal_text
 
 x, y, w, x_0, t = sp.symbols("x y w x_0 t", real=True)

@@ -24,8 +24,8 @@ from verdicts import accepted
 
 from workbench.proof.checker import MANIFEST
 from workbench.proof.claim import D, Goal, Relation
-from workbench.proof.decide.engine import pinned
 from workbench.proof.paper import collect_papers
+from workbench.proof.pinned import pinned
 from workbench.proof.text import goal_text
 
 PROOFS = Path(__file__).parents[2] / "proofs"

@@ -16,12 +16,10 @@ import sympy as sp
 
 from workbench.errors import SolverError
 from workbench.gains.exact import Matrix, rational, simplest, solve_exactly, squares_of
-from workbench.gains.lmi import Array, Scaled, size_of
 from workbench.gains.problem import Exponents, Family, Problem
+from workbench.gains.scaled import Array, Scaled, size_of
 from workbench.proof.checker import CertificateError, check
 from workbench.proof.claim import Goal
-from workbench.proof.decide.engine import prove_goal
-from workbench.proof.decide.refute import find_example
 from workbench.proof.document import write_folder
 from workbench.proof.text import goal_text, relation_text, text
 from workbench.proof.verdict import Verdict
@@ -34,6 +32,8 @@ Certificate = dict[str, Any]
 def proved_certificate(problem: Problem, values: Mapping[sp.Symbol, sp.Rational], states: tuple[sp.Symbol, ...],
                        proofs: list[Proof]) -> Certificate:
     """The checked certificate that the conditions hold with these values; SolverError where the checker objects."""
+    from workbench.proof.decide.refute import find_example  # noqa: PLC0415 - as in `goal_certificate`
+
     put = dict(values)
     goal = Goal(tuple(r.subs(put) for r in problem.conditions.values()), tuple(r.subs(put) for r in problem.where),
                 {s: sp.sympify(rate, strict=True).xreplace(put) for s, rate in problem.flow.items()})
@@ -53,6 +53,8 @@ def proved_certificate(problem: Problem, values: Mapping[sp.Symbol, sp.Rational]
 
 def goal_certificate(claim: str, goal: Goal) -> Certificate:
     """The certificate of a goal that the proof deciders prove; SolverError naming it where they do not."""
+    from workbench.proof.decide.engine import prove_goal  # noqa: PLC0415 - who only states such goals needs no deciders
+
     proof = prove_goal(goal)
     if proof is None:
         raise SolverError(f"{claim}: could not be proved: state it in smaller steps")

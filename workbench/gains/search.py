@@ -14,8 +14,9 @@ import sympy as sp
 from workbench.errors import SolverError, WorkbenchError
 from workbench.gains.certificate import Proof, infeasible_certificate, proved_certificate
 from workbench.gains.exact import Matrix, rational, simplest, squares_of
-from workbench.gains.lmi import Answer, Array, Refusal, Scaled, inner_duals, interior, least, scaled, size_of
+from workbench.gains.lmi import Answer, Refusal, inner_duals, interior, least
 from workbench.gains.problem import Block, Exponents, Family, Poly, Problem, affine, families_of, states_of
+from workbench.gains.scaled import Array, Scaled, scaled, size_of
 
 TOLERANCES = tuple(10.0 ** (-n / 2) for n in range(2, 24))
 FACE = 1e-5  # entries of a dual below this part of the largest are zero

@@ -8,7 +8,7 @@ from workbench.errors import WorkbenchError
 from workbench.proof.building import built
 from workbench.proof.checker import digest_of
 from workbench.proof.claim import Claim, Goal, Verdict, name_of
-from workbench.proof.decide.engine import pinned
+from workbench.proof.pinned import pinned
 from workbench.proof.text import goal_text
 
 

@@ -12,7 +12,6 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from workbench.compile.casadi_tree import casadi_of
 from workbench.compile.vector_code import numeric_vector
 from workbench.model.law import time
 from workbench.systems.declared import require_no_whole, require_outputs_signed, require_signs_kept
@@ -278,6 +277,8 @@ class Plant:
     def to_casadi(self, parameters: Mapping[str, Any] | None = None) -> Any:
         """A `casadi.Function` (t, x, u, d) -> x', in discrete time the next x, parameters put in."""
         import casadi as ca  # noqa: PLC0415 - as in `linearise`
+
+        from workbench.compile.casadi_tree import casadi_of  # noqa: PLC0415 - it needs casadi
 
         t, x, u, d = (ca.SX.sym(name, size) for name, size in (
             ("t", 1), ("x", len(self.states)), ("u", len(self.inputs)), ("d", len(self.disturbances))))

@@ -8,12 +8,10 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-import sympy as sp
-
 from workbench.errors import ClaimError
 from workbench.proof.building import built
 from workbench.proof.checker import CertificateError, check, roots_of
-from workbench.proof.claim import Claim, Decision, Goal, Relation, Verdict, latex, name_of
+from workbench.proof.claim import Claim, Decision, Goal, Verdict, latex, name_of
 from workbench.proof.decide.cuts import after
 from workbench.proof.decide.first_lemmas import definedness_of_goal
 from workbench.proof.decide.method import method_of
@@ -24,14 +22,13 @@ from workbench.proof.decide.search import prove_relation
 from workbench.proof.decide.square_roots import with_roots_of_squares
 from workbench.proof.decide.undefined import undefined_somewhere
 from workbench.proof.decide.weaker_signs import with_weaker_signs
-from workbench.proof.derive import expand_derivatives
 from workbench.proof.fate import judged
 from workbench.proof.latex.goal import goal_latex
 from workbench.proof.latex.match import match_claim
 from workbench.proof.names import in_key_order, names_in
+from workbench.proof.pinned import pinned
 from workbench.proof.premises import premises_problem
 from workbench.proof.text import goal_text, relation_text
-from workbench.proof.typed import as_typed
 
 Certificate = dict[str, Any]
 LONGEST_LINE = 160  # of a relation in a sentence
@@ -141,26 +138,6 @@ def _in_order(point: dict[str, str], goal: Goal) -> dict[str, str]:
 
 def _stated_values(claim: Claim) -> dict[str, str]:
     return {name_of(s): str(v) for s, v in (claim.at or {}).items()}
-
-
-def pinned(goal: Goal, values: dict[Any, Fraction]) -> Goal:
-    """The goal with symbols replaced by values; assumptions that become plain facts stay, to be checked."""
-    if goal.initial or goal.eventually is not None:
-        raise ClaimError("stated values decide a condition of one instant: it has no initial values or later times")
-    for s, v in values.items():
-        if (s.is_positive and v <= 0) or (s.is_nonnegative and v < 0):
-            raise ClaimError(f"{s} = {v} contradicts the sign of its symbol")
-    exact = {s: sp.Rational(v.numerator, v.denominator) for s, v in values.items()}
-
-    def put(relations: tuple[Relation, ...]) -> tuple[Relation, ...]:
-        # Derivatives first: D of a symbol that has become a number would be zero.
-        carried = (Relation(expand_derivatives(r.left, goal.flow), r.operator, expand_derivatives(r.right, goal.flow))
-                   for r in relations)
-        with as_typed():
-            return tuple(r.subs(exact) for r in carried)
-
-    return replace(goal, show=put(goal.show), assume=put(goal.assume), always=put(goal.always), flow={},
-                   lemmas=put(goal.lemmas), facts=tuple(f.xreplace(exact) for f in goal.facts), inputs=())
 
 
 def prove_goal(goal: Goal) -> Certificate | None:
