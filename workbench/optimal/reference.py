@@ -142,7 +142,7 @@ def find_timed_reference(vehicle: Vehicle, course: Course, timetable: Timetable,
     if like is not None and like.planned is not None:
         known = _known(asked, course, like, like.planned)
         if known is not None:
-            grid, rounds, enough = known.plan.grid, 1, 0.0
+            grid, rounds, enough = known.plan.grid, 1, GAP_WANTED
         elif intervals is None and len(like.planned.plan.force_n) > REFINED * len(grid.limit_mps):
             grid, enough = grid_near(course, like.planned.plan.grid.position_m), GAP_OF_CONES
     if solver != "nlp":
