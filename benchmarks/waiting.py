@@ -20,6 +20,7 @@ from pathlib import Path
 
 import numpy as np
 from descendants import adopt
+from run_bits import tell_run_bits
 from versions import ROOT, Bench, Version, tell
 
 from workbench.optimal.inputs.files import load_line, load_vehicle
@@ -144,7 +145,7 @@ def references(bench: Bench, full: bool) -> None:
 
 
 def runs(bench: Bench) -> None:
-    """A sweep of cheap laws, and a run beside the same loop by hand in C."""
+    """A sweep of cheap laws, a run beside the same loop by hand in C, and whether runs are the same as before."""
     named = [word for name in ("pid", "rbf_pid", "pocrac") for word in ("--controller", name)]
     for cold, told in ((False, ""), (True, ", nothing compiled")):
         swept = (*named, "--runs", 32, "--out")
@@ -153,6 +154,7 @@ def runs(bench: Bench) -> None:
     now, before = bench.values(RUN_OF_PID, EARLIER_RUN_OF_PID)
     if now is not None:
         tell("a run of PID", now[0], before, f"{now[0] / now[1]:.2f} times C" if now[1] else "no gcc: C is left out")
+    tell_run_bits(bench)
 
 
 def mpc(bench: Bench, full: bool) -> None:
