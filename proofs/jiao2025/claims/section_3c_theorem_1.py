@@ -29,6 +29,7 @@ from ..notation import epsilon_bar, p, p_k
 from ..paper import paper
 from ..plant import u_prev
 from .section_2c_algorithm import after_reset, fires, least_estimate, share_of_new, small_epsilon, updated
+from .section_3a_random_lengths import missed, reached
 from .section_3b_improved_laws import with_gamma
 
 phi_c, phi_hat = sp.symbols("phi_c phi_hat_c", positive=True)  # by Assumption 4 and 13.mended, with a positive first estimate
@@ -162,7 +163,7 @@ left = sp.IndexedBase("x_j", real=True)
 @paper.claim("A3.independent", "The lengths of different trials are independent of each other", "implication",
              r"E\{\gamma(k+1,i-1)\,e(k+1,i-1)\} = p(k+1)\,E\{e(k+1,i-1)\}", "gap", origin="implied", rests_on=("A3", "gamma.mean"), premises=("theorem1.step",),
              reading="The step from one expected error to the next, in which gamma(k+1,i-1) and the error that the trials before have left are taken as independent. Asked where all trials "
-                     "have the same random length, T_i = T_0, as Assumption 3 allows: in trial 1 the error is (1 - g) e_0 with the probability p(k+1), and just then data arrive again, else it is e_0 > 0.",
+                     "have the same random length, T_i = T_0, as Assumption 3 allows: in trial 1 the error is (1 - g) e(k+1,0) with the probability p(k+1), and just then data arrive again, else it is e(k+1,0) > 0.",
              note="Assumption 3 gives the distribution of each T_i, not their dependence; the paper certainly means independent lengths: A3.independent.mended. In the numbers T_1 = T_0, the step is that to trial 2, and trial 0 has the error 1: the left side is p(1 - g) = 0.25, the right side p(p(1 - g) + 1 - p) = 0.375. Without them the theorem fails: theorem1.lengths.")
 def lengths_are_independent() -> Goal:
     """Where trial 1 is as long as trial 0, data arrive just where they did."""
@@ -177,8 +178,8 @@ def lengths_are_independent() -> Goal:
              note="Trial 0 belongs to them: (14) uses gamma(k+1,0) e(k+1,0) in trial 1. All else is the first input, the first estimate, the starts and phi_c: where they are random the lengths must be independent of them too; outcome j says what they are. That j occurs and data arrive has then the chance p(k+1) q_j^2, and nothing else is used.")
 def product_of_means() -> Goal:
     """The mean of gamma e over outcomes and data."""
-    with_data, without_data = (mean_of(sp.Integer(value) * left[j]) for value in (1, 0))
-    return Goal((equal(p_k * with_data + (1 - p_k) * without_data, p_k * mean_of(left[j])),))
+    with_data, without_data = (mean_of(value * left[j]) for value in (reached, missed))
+    return Goal((equal(p_k * with_data + (1 - p_k) * without_data, p_k * mean_of(left[j])),), (equal(reached, 1), equal(missed, 0)))
 
 
 @paper.claim("theorem1", "Theorem 1: under Assumptions 1 to 4 the expected error converges to zero", "limit", THEOREM, "gap",
@@ -233,7 +234,7 @@ def same_length_always() -> Goal:
 
 
 @paper.claim("theorem1.mended", "Theorem 1 where phi_hat(k,1) > 0, the lengths T_0, T_1, ... are independent of each other and of all else, and Assumption 2 holds for any two runs", "limit",
-             r"\text{Assumptions 1 and 4},\ \text{Assumption 2 for any two runs},\ \rho, \eta \in (0, 1],\ \mu > 0,\ \lambda > \tfrac{1}{16}\rho^2p^2,\ u_f(k,0)\ \text{and}\ \hat\phi_c(k,1) > 0\ \text{not random},\ "
+             r"\text{Assumptions 1 and 4},\ \text{Assumption 2 for any two runs},\ \rho, \eta \in (0, 1],\ \mu > 0,\ \lambda > \tfrac{1}{16}\rho^2p^2,\ \hat\phi_c(k,1) > 0,\ u_f(k,0), \hat\phi_c(k,1)\ \text{not random},\ "
              r"T_0, T_1, \ldots\ \text{independent of each other and of all else that is random, each as in Assumption 3},\ 0 < p(k) \le 1 \Rightarrow E|e(k,i)| \le (1 - p(k)M_1)^i\,E|e(k,0)| \to 0,\ k \ge 1,\ "
              r"M_1 = \min\left(\frac{\rho\bar\varepsilon m}{\lambda + \Phi^2}, 2 - s, \tfrac12\right),\ m = \min(\varepsilon, \hat\phi_c(k,1)),\ \Phi = \max(p, \hat\phi_c(k,1)),\ s = \frac{\rho p}{2\sqrt\lambda}", "proved",
              premises=("theorem1.mean", "theorem1.whole", "gamma.positive", "13.mended", "theorem1.estimate.bounded", "A3.independent.mended"),
