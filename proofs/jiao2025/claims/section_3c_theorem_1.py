@@ -164,7 +164,7 @@ left = sp.IndexedBase("x_j", real=True)
              r"E\{\gamma(k+1,i-1)\,e(k+1,i-1)\} = p(k+1)\,E\{e(k+1,i-1)\}", "gap", origin="implied", rests_on=("A3", "gamma.mean"), premises=("theorem1.step",),
              reading="The step from one expected error to the next, in which gamma(k+1,i-1) and the error that the trials before have left are taken as independent. Asked where all trials "
                      "have the same random length, T_i = T_0, as Assumption 3 allows: in trial 1 the error is (1 - g) e(k+1,0) with the probability p(k+1), and just then data arrive again, else it is e(k+1,0) > 0.",
-             note="Assumption 3 gives the distribution of each T_i, not their dependence; the paper certainly means independent lengths: A3.independent.mended. In the numbers T_1 = T_0, the step is that to trial 2, and trial 0 has the error 1: the left side is p(1 - g) = 0.25, the right side p(p(1 - g) + 1 - p) = 0.375. Without them the theorem fails: theorem1.lengths.")
+             note="Assumption 3 gives the distribution of each T_i, not their dependence; the paper certainly means independent lengths: A3.independent.mended. In the numbers T_1 = T_0, the step is that to trial 2, and trial 0 has the error 1: the left side is p(1 - g) = 0.25, the right side p(p(1 - g) + 1 - p) = 0.375. Without independent lengths the theorem fails: theorem1.lengths.")
 def lengths_are_independent() -> Goal:
     """Where trial 1 is as long as trial 0, data arrive just where they did."""
     learned = (1 - g) * e_start

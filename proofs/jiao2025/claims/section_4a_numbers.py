@@ -85,7 +85,7 @@ def first_step_infeasible() -> Goal:
 @paper.claim("16.samples", "2000 steps of T_s make the trip of T_d = 2000 s", "condition",
              r"k \in \{0, 1, \dots, T_d\},\ T_s = 0.1\,\text{s},\ T_d = 2000\,\text{s}", "violated",
              at={**stated(T_s), T_d: Fraction(2000)},
-             reading="The steps of (1), each of the length T_s, make the duration T_d of the trip.",
+             reading="The steps of (1), each of the length T_s, make the duration T_d of the trip; both are in seconds.",
              note="k in {0, ..., T_d} counts steps of (1), each T_s = 0.1 s long, and T_d, T_i and (16) take it for seconds: 2000 steps of 0.1 s are 200 s, and (16), read in m/s, begins with 0.41 m/s in one step "
                   "(16.force). Either T_s is 1 s, or the trip has 20,000 steps, with k/10 in (16) and (17). For u in N/kg, where (1) has no M and p is T_s, and T_s = 1 s the bound rho^2 p^2/16 of the Conclusion, mended, is 0.00375, above Table 1's lambda (theorem1.stated.mass.1s.contracts): "
                   "not every positive estimate makes the error of the first sample smaller, those between 0.00041 and 0.122 do not. For 20,000 steps the bound is 0.0000375, and Table 1 meets it (theorem1.stated.mass.contracts).")
@@ -129,7 +129,7 @@ def coefficients_positive() -> Goal:
              r"\frac{1}{M}f_b = \frac{2977 + 25.17 v + 0.2864 v^2}{M}\ \text{with (17)}", "violated", rests_on=("1", "3", "17"),
              at={**stated(M), v_i: Fraction(70), swing: Fraction(0)},
              origin="implied",
-             reading="By (1) f_b is a force, and by its numbers (17) is one in newtons over M. Speeds are read in m/s, in which (1) gives them for N, kg and s; the text prints no unit.",
+             reading="By (1) f_b is a force, and by its numbers (17) is one in newtons over M. Speeds are read in m/s, in which (1) gives them for N, kg and s; the text prints no unit. Both sides are in m/s^2.",
              note="(17) is divided by M, and (1) divides by M once more, so that the train runs with a resistance 350,000 "
                   "times too small. Either (17) is in N without its M, or u and, as Figure 4 has it, f_a are forces per unit of mass and "
                   "(1) has no M. The text does not say which, and what u(k,0) = 1500, lambda and the gains do depends on it: if (17) is in N, 1500 N does not move the train on a level line (u0.N); in N/kg the first trial is "
