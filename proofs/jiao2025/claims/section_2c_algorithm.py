@@ -25,7 +25,7 @@ from ..laws import (
 from ..notation import phi_free, v_d, v_next_prev, xi
 from ..paper import paper
 from ..plant import M, T_s, u_i, u_prev
-from ..stated_values import stated
+from ..stated_values import STATED, stated
 
 input_cost = (e_prev - phi * (u_i - u_prev)) ** 2 + lamda * (u_i - u_prev) ** 2
 error_before, error_after = v_d - v_next_prev, v_d - (v_next_prev + phi * (u_i - u_prev))  # e(k+1,i-1), and by (6) e(k+1,i)
@@ -205,6 +205,7 @@ def reset_law() -> Goal:
 
 
 least_estimate = sp.Symbol("m", positive=True)  # min(epsilon, phi_hat(k,1))
+small_epsilon = equal(epsilon, sp.Rational(STATED[epsilon].numerator, STATED[epsilon].denominator))  # that of Table 1
 
 
 def _kept(shown: Relation, *first: Relation) -> Goal:
@@ -217,12 +218,12 @@ KEPT = r"\hat\phi_c(k,i) \ge \min(\varepsilon, \hat\phi_c(k,1)) > 0"
 
 
 @paper.claim("13.keeps", "After (13) the estimate is positive and away from zero", "implication", KEPT, "gap",
-             premises=("13",), origin="implied", reading="What Theorem 1 needs of (13), with phi_c > 0; decided as the least of it, that the estimate is positive. An estimate in use is the first one, where a test fires, or has passed the three tests.",
+             premises=("13",), origin="implied", reading="What Theorem 1 needs of (13), with phi_c > 0; decided as the least of it, that the estimate is positive. An estimate in use is the first one, where a test fires, or has passed the three tests. epsilon is that of Table 1.",
              note="It holds when the first estimate is positive, 13.mended, which the paper does not ask for: the control direction is known, by Remark 4, but phi_hat(k,1) is stated nowhere, not in section 4 "
                   "either. With phi_hat(k,1) = 0 the estimate is 0 for ever; with a negative one it stays negative. The Conclusion needs it too, as its analysis is Theorem 1 and its mended form asks for phi_hat(k,1) > 0; it is not named above because it fails with a positive estimate as well.")
 def reset_keeps_away() -> Goal:
     """A reset to a first estimate of any size and sign."""
-    return _kept(greater(after_reset, 0))
+    return _kept(greater(after_reset, 0), small_epsilon)
 
 
 @paper.claim("13.mended", "A positive first estimate keeps the estimate positive and away from zero", "implication",

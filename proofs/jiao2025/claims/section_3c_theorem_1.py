@@ -28,7 +28,8 @@ from ..laws import (
 from ..notation import epsilon_bar, p, p_k
 from ..paper import paper
 from ..plant import u_prev
-from .section_2c_algorithm import after_reset, fires, least_estimate, share_of_new, updated
+from .section_2c_algorithm import after_reset, fires, least_estimate, share_of_new, small_epsilon, updated
+from .section_3a_random_lengths import missed, reached
 from .section_3b_improved_laws import with_gamma
 
 phi_c, phi_hat = sp.symbols("phi_c phi_hat_c", positive=True)  # by Assumption 4 and 13.mended, with a positive first estimate
@@ -76,7 +77,7 @@ def error_step() -> Goal:
              r"\lambda > \lambda_{\min} = \tfrac{1}{16}\rho^2p^2 \Rightarrow 0 < \frac{\rho\phi_c\hat\phi_c}{\lambda + \hat\phi_c^2} \le s < 2,\ "
              r"\text{so that } \left|1 - \frac{\rho\phi_c\hat\phi_c}{\lambda + \hat\phi_c^2}\right| < 1",
              "proved", premises=("lemma1",), origin="ours", reading="s = rho p/(2 sqrt lambda), which is below 2 just for such lambda; then 4 lambda s^2 = rho^2 p^2.",
-             note="The paper only says that a lambda_min exists. No smaller one serves: at phi_c = p and phi_hat = sqrt(lambda) the quotient is s. Where lambda > rho^2 p^2/4 the error "
+             note="The paper only says that a lambda_min exists. No smaller one serves for every positive first estimate: at phi_c = p and phi_hat = sqrt(lambda) the quotient is s, and (13) puts a first estimate back where the input hardly changes. Where lambda > rho^2 p^2/4 the error "
                   "keeps its sign too: theorem1.lambda.sign.")
 def lambda_min_exists() -> Goal:
     """The square (2 s phi_hat - rho phi_c)^2 does it."""
@@ -162,8 +163,8 @@ left = sp.IndexedBase("x_j", real=True)
 @paper.claim("A3.independent", "The lengths of different trials are independent of each other", "implication",
              r"E\{\gamma(k+1,i-1)\,e(k+1,i-1)\} = p(k+1)\,E\{e(k+1,i-1)\}", "gap", origin="implied", rests_on=("A3", "gamma.mean"), premises=("theorem1.step",),
              reading="The step from one expected error to the next, in which gamma(k+1,i-1) and the error that the trials before have left are taken as independent. Asked where all trials "
-                     "have the same random length, T_i = T_0, as Assumption 3 allows: in trial 1 the error is (1 - g) e_0 with the probability p(k+1), and just then data arrive again, else it is e_0 > 0.",
-             note="Assumption 3 gives the distribution of each T_i, not their dependence; the paper certainly means independent lengths: A3.independent.mended. In the numbers T_1 = T_0, the step is that to trial 2, and trial 0 has the error 1: the left side is p(1 - g) = 0.25, the right side p(p(1 - g) + 1 - p) = 0.375. Without them the theorem fails: theorem1.lengths.")
+                     "have the same random length, T_i = T_0, as Assumption 3 allows: in trial 1 the error is (1 - g) e(k+1,0) with the probability p(k+1), and just then data arrive again, else it is e(k+1,0) > 0.",
+             note="Assumption 3 gives the distribution of each T_i, not their dependence; the paper certainly means independent lengths: A3.independent.mended. In the numbers T_1 = T_0, the step is that to trial 2, and trial 0 has the error 1: the left side is p(1 - g) = 0.25, the right side p(p(1 - g) + 1 - p) = 0.375. Without independent lengths the theorem fails: theorem1.lengths.")
 def lengths_are_independent() -> Goal:
     """Where trial 1 is as long as trial 0, data arrive just where they did."""
     learned = (1 - g) * e_start
@@ -174,20 +175,20 @@ def lengths_are_independent() -> Goal:
              r"P[T_{i-1} = T_{\min} + l\,|\,T_0, \dots, T_{i-2}] = p_l\ \forall l,\ \text{also given all else that is random} \Rightarrow E\{\gamma(k+1,i-1)\,e(k+1,i-1)\} = p(k+1)\,E\{e(k+1,i-1)\}", "proved",
              premises=("gamma.p",), origin="ours", mends="A3.independent", scope="every finite number of outcomes, which lengths with finitely many values make",
              reading="Outcome j of the trials before has the chance q_j^2 and leaves the error x_j; trial i-1 then reaches k + 1, and gamma is 1, with the chance p(k+1), whatever j is; else gamma is 0.",
-             note="Trial 0 belongs to them: (14) uses gamma(k+1,0) e(k+1,0) in trial 1. All else is the first input, the first estimate, the starts and phi_c: where they are random the lengths must be independent of them too; outcome j says what they are.")
+             note="Trial 0 belongs to them: (14) uses gamma(k+1,0) e(k+1,0) in trial 1. All else is the first input, the first estimate, the starts and phi_c: where they are random the lengths must be independent of them too; outcome j says what they are. That j occurs and data arrive has then the chance p(k+1) q_j^2, and nothing else is used.")
 def product_of_means() -> Goal:
     """The mean of gamma e over outcomes and data."""
-    with_data, without_data = (mean_of(sp.Integer(value) * left[j]) for value in (1, 0))
-    return Goal((equal(p_k * with_data + (1 - p_k) * without_data, p_k * mean_of(left[j])),))
+    with_data, without_data = (mean_of(value * left[j]) for value in (reached, missed))
+    return Goal((equal(p_k * with_data + (1 - p_k) * without_data, p_k * mean_of(left[j])),), (equal(reached, 1), equal(missed, 0)))
 
 
 @paper.claim("theorem1", "Theorem 1: under Assumptions 1 to 4 the expected error converges to zero", "limit", THEOREM, "gap",
              premises=("theorem1.step", "13", "14"), rests_on=("6", "6.unchanged", "13.keeps", "14", "15", "gamma.positive", "gamma.mean", "A3.independent"),
              severity="result",
-             reading="A motion of (6), (13)-(15) that is the same in every trial has no error; k <= T_min, so that no trial ends before (gamma = 1). The assumptions are those of the theorem.",
-             note="Two conditions are missing, each of a usual kind. phi_hat(k,1) > 0: take v(k+1) = 2u(k), which meets Assumptions 1, 2 and 4, and phi_hat(k,1) = 0, of which the paper asks nothing; (14) does not move "
+             reading="A motion of (6), (13)-(15) that is the same in every trial has no error; k <= T_min, so that no trial ends before (gamma = 1). The assumptions are those of the theorem; epsilon is that of Table 1.",
+             note="Two conditions are missing, each of a usual kind. phi_hat(k,1) > 0: take v(k+1) = u(k), which meets Assumptions 1, 2 and 4, and phi_hat(k,1) = 0, of which the paper asks nothing; (14) does not move "
                   "the input, (13) puts 0 back in every trial, and the error stays as it is, for every lambda (theorem1.frozen). With a first estimate of the wrong sign the error grows in every trial (theorem1.sign). "
-                  "And independent lengths: theorem1.lengths. With both the theorem holds: theorem1.mended. The paper prints no proof, it "
+                  "And independent lengths: theorem1.lengths. With both, and with Assumption 2 read of any two runs of the system, the theorem holds: theorem1.mended; that reading is needed where data are missing, since (14) then keeps the input and Lemma 1 leaves out Delta u_f(k,i) = 0. The paper prints no proof, it "
                   "refers to [22]; the steps here are those that its equations force. What v and e are for k > T_i, where trial i has ended, it does not say either: they are taken as what (6) makes of them. "
                   "That the train is no system of which the theorem speaks is another matter, see remark2.inherent and A4.train.")
 def constant_error() -> Goal:
@@ -198,7 +199,7 @@ def constant_error() -> Goal:
     moved = law.right.xreplace(in_use)
     same_in_every_trial = (equal(moved, u_prev), equal(step.right.xreplace(in_use), e_prev))
     reset = (at_most((moved - u_prev) ** 2, epsilon**2), equal(fires, 1), equal(after_reset, fires * phi_first + (1 - fires) * updated))
-    assumptions = (greater(phi, epsilon_bar), at_most(phi, p), greater(lamda, rho**2 * p**2 / 4), at_most(rho, 1))
+    assumptions = (greater(phi, epsilon_bar), at_most(phi, p), greater(lamda, rho**2 * p**2 / 4), at_most(rho, 1), small_epsilon, equal(epsilon_bar, sp.Rational(1, 1000)), equal(phi, 1))
     return Goal((equal(e_prev, 0),), (*same_in_every_trial, *reset, *assumptions))
 
 
@@ -233,13 +234,13 @@ def same_length_always() -> Goal:
 
 
 @paper.claim("theorem1.mended", "Theorem 1 where phi_hat(k,1) > 0, the lengths T_0, T_1, ... are independent of each other and of all else, and Assumption 2 holds for any two runs", "limit",
-             r"\text{Assumptions 1 and 4},\ \text{Assumption 2 for any two runs},\ \rho, \eta \in (0, 1],\ \mu > 0,\ \lambda > \tfrac{1}{16}\rho^2p^2,\ \hat\phi_c(k,1) > 0,\ "
+             r"\text{Assumptions 1 and 4},\ \text{Assumption 2 for any two runs},\ \rho, \eta \in (0, 1],\ \mu > 0,\ \lambda > \tfrac{1}{16}\rho^2p^2,\ \hat\phi_c(k,1) > 0,\ u_f(k,0), \hat\phi_c(k,1)\ \text{not random},\ "
              r"T_0, T_1, \ldots\ \text{independent of each other and of all else that is random, each as in Assumption 3},\ 0 < p(k) \le 1 \Rightarrow E|e(k,i)| \le (1 - p(k)M_1)^i\,E|e(k,0)| \to 0,\ k \ge 1,\ "
              r"M_1 = \min\left(\frac{\rho\bar\varepsilon m}{\lambda + \Phi^2}, 2 - s, \tfrac12\right),\ m = \min(\varepsilon, \hat\phi_c(k,1)),\ \Phi = \max(p, \hat\phi_c(k,1)),\ s = \frac{\rho p}{2\sqrt\lambda}", "proved",
              premises=("theorem1.mean", "theorem1.whole", "gamma.positive", "13.mended", "theorem1.estimate.bounded", "A3.independent.mended"),
              rests_on=(), origin="ours", severity="result", mends="theorem1",
              reading="m_i is E|e(k,i)|, which is at least |E e(k,i)|, and theta is (1 - p M_1)^(i-1). Decided as the step of m_i <= (1 - p M_1)^i m_0 and of (1 - p M_1)^i <= 1/(1 + p M_1 i), with the trial from which on m is below delta.",
-             note="What the paper does not ask is phi_hat(k,1) > 0 and independent lengths, from trial 0 on, which (14) uses in trial 1; 0 < p(k) it lays down where it defines gamma. The systems are those in which v(k+1) depends on "
+             note="What the paper does not ask is phi_hat(k,1) > 0 and independent lengths, from trial 0 on, which (14) uses in trial 1; 0 < p(k) it lays down where it defines gamma. The first input and the first estimate are numbers, as in the paper: with random ones E|e(k,0)| need not be finite and m, Phi and M_1 are no numbers. k >= 1, since no input reaches e(0,i). The lambda that serves depends on the bound p of Assumption 2, which has to be known to choose it. The systems are those in which v(k+1) depends on "
                   "u(k) alone, by Assumption 2 for any two runs of the system, whatever their starts and inputs (6.unchanged); the train is none, see theorem1.train. E{e} alone could be zero while e is not, see intro.error; E|e| goes to zero like a geometric series, "
                   "so that e itself does with probability one, by Markov's inequality and the lemma of Borel and Cantelli. The conditions with m_i and theta are the step from trial i-1 to trial i.")
 def expectation_converges() -> Goal:

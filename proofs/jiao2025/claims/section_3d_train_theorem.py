@@ -98,13 +98,13 @@ z_now, z_with, z_without = sp.symbols("z z_with z_without", nonnegative=True)
 
 
 @paper.claim("theorem1.train", "The train's expected errors converge where 0 <= a <= 1 in all trials, the starts v(0,i), s(0,i) are equal, f_a is Lipschitz in the place, phi_hat(k,1) > 0, and the lengths are independent of each other and of all else", "limit",
-             r"\text{(1)-(3)},\ 0 \le a \le 1\ \text{at all}\ k, i,\ |\Delta f_a| \le L|\Delta s|,\ \text{the same } v(0,i), s(0,i),\ \rho, \eta \in (0, 1],\ \mu > 0,\ \hat\phi_c(k,1) > 0,\ "
+             r"\text{(1)-(3)},\ 0 \le a \le 1\ \text{at all}\ k, i,\ |\Delta f_a| \le L|\Delta s|,\ \text{the same } v(0,i), s(0,i)\ \text{for all}\ i,\ \rho, \eta \in (0, 1],\ \mu > 0,\ \hat\phi_c(k,1) > 0,\ v(0,i), s(0,i), u_f(k,0), \hat\phi_c(k,1)\ \text{not random},\ "
              r"\lambda > \tfrac{1}{16}\rho^2\tfrac{T_s^2}{M^2},\ T_0, T_1, \ldots\ \text{independent of each other and of all else that is random, each as in Assumption 3},\ 0 < p(k) \le 1 \Rightarrow "
              r"E|e(k,i)| \le C_kr_k^i \to 0,\ k \ge 1", "proved", premises=("theorem1.train.mean", "theorem1.train.sum", "theorem1.train.estimate", "13.mended", "theorem1.lambda", "theorem1.low", "gamma.positive", "A3.independent.mended"),
              rests_on=(), scope=EVERY_LENGTH, origin="ours", severity="result", mends="conclusion",
              reading="The step of the induction over i at a sample, and what it hands on to the next: with c = 1 - p(k+1)d < r < 1 and E D(k,i) <= Z r^i it is E|e(k+1,i)| <= C r^i and E|Delta v(k+1,i)| <= 2C r^(i-1), "
                      "for C >= E|e(k+1,0)| and C >= Z r/(r - c); theta_r is r^(i-1).",
-             note="Not the paper's argument, and what is left of Theorem 1 for the train. a is the share of 5.trials. That it stays within [0, 1] in all trials is a condition on the loop: at the speeds of the trip it does (5.loss), but speeds may be far from them while the errors still grow (intro.growth). By 13.mended and theorem1.train.estimate the estimates lie "
+             note="Not the paper's argument, and what is left of Theorem 1 for the train. Starts, first input and first estimate are numbers: with random ones C and r need not exist. a is the share of 5.trials. That it stays within [0, 1] in all trials is a condition on the loop: at the speeds of the trip it does (5.loss), but speeds may be far from them while the errors still grow (intro.growth). By 13.mended and theorem1.train.estimate the estimates lie "
                   "between two bounds, by theorem1.lambda with p = T_s/M, and by theorem1.low, d = min(g, 2 - g) > 0 over them. At the next sample E D(k+1,i) is again below such a power. C grows from sample to sample. What v and e are beyond T_i the paper does not say: they are taken as what (1) makes of the inputs.")
 def train_converges() -> Goal:
     """One trial on, in powers of r; then the difference that the next sample is disturbed by."""

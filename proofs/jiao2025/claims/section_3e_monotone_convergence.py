@@ -240,7 +240,7 @@ def bernoulli() -> Goal:
              r"\|e_i\|_2^2 \ge (1-g)^2 + (N-1)(1 - 2Nc)\,g^2 \ge 100\,\|e_{i-1}\|_2^2,\ e_{i-1} = (1, 0, \ldots, 0),\ N = 2000,\ c = 1 - a", "proved", origin="ours",
              premises=("intro.lift", "intro.bernoulli"),
              at={**stated(rho, lamda), b: per_mass.gain, loss: secant_loss(SAMPLE_S), N: Fraction(LENGTH)},
-             note="c = 1 - a is 2.1e-5 at 72 m/s with the largest coefficients of (17), g is that at phi_hat = T_s/M = 0.1. The errors converge in the end (theorem1.train).")
+             note="c = 1 - a is 2.1e-5 at 72 m/s with the largest coefficients of (17), g is that at phi_hat = dv(k+1)/du(k), which is T_s = 0.1 for u in N/kg. The errors converge in the end (theorem1.train).")
 def growth_in_one_trial() -> Goal:
     """The error at the first sample alone, with what is left of its effect after N samples."""
     return Goal((at_least((1 - GAIN_AT_TRUTH) ** 2 + (N - 1) * (1 - 2 * N * loss) * GAIN_AT_TRUTH**2, 100),))

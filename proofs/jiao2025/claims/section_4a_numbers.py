@@ -36,7 +36,7 @@ LINES: tuple[tuple[int, int, int, str, str, sp.Expr, Relation], ...] = (
 def _line(number: int, low: int, high: int, latex: str, reading: str, printed: sp.Expr, by_values: Relation) -> None:
     @paper.claim(f"16.{number}", f"The desired speed, line {number} of (16)", "identity", rf"v_d(k) = {latex}, \quad \text{{if }} k \in [{low}, {high}]", "proved",
                  severity="data", where={"v_d(k)": speed}, reading=reading,
-                 note="The paper states no unit; with the resistance (17) the speeds are m/s. Where two lines give a value at their common border they agree: 16.continuous.")
+                 note="The text states no unit; (1) with forces in N, M in kg and T_s in s makes the speeds m/s. Where two lines give a value at their common border they agree: 16.continuous.")
     def desired() -> Goal:
         return Goal((equal(speed, printed),), (by_values, at_least(k, low), at_most(k, high)))
 
@@ -73,9 +73,9 @@ def acceleration_jumps() -> Goal:
                 tuple(equal(at, border) for at, border in zip(INSTANTS[1:-1], BORDERS, strict=True)))
 
 
-@paper.claim("16.force", "With k counting samples no train can follow the first step of (16)", "condition",
+@paper.claim("16.force", "With k counting samples and speeds in m/s no train can follow the first step of (16)", "condition",
              r"\frac{v_d(1) - v_d(0)}{T_s} > 2\ \tfrac{m}{s^2}", "proved", premises=("16.1",), at=stated(T_s), origin="ours",
-             note="2 m/s^2 is generous for a train. With k counting samples of 0.1 s, as (1) has it, (16) asks for 4.1 m/s^2, 1.4 MN for this train. "
+             note="2 m/s^2 is generous for a train. In km/h it would be 1.15 m/s^2, which a train can. With k counting samples of 0.1 s, as (1) has it, (16) asks for 4.1 m/s^2, 1.4 MN for this train. "
                   "With k in seconds it is 0.41 m/s^2, over a trip of 123 km between two stops.")
 def first_step_infeasible() -> Goal:
     """The speed gained in the first sample over its duration."""
@@ -85,9 +85,9 @@ def first_step_infeasible() -> Goal:
 @paper.claim("16.samples", "2000 steps of T_s make the trip of T_d = 2000 s", "condition",
              r"k \in \{0, 1, \dots, T_d\},\ T_s = 0.1\,\text{s},\ T_d = 2000\,\text{s}", "violated",
              at={**stated(T_s), T_d: Fraction(2000)},
-             reading="The steps of (1), each of the length T_s, make the duration T_d of the trip.",
+             reading="The steps of (1), each of the length T_s, make the duration T_d of the trip; both are in seconds.",
              note="k in {0, ..., T_d} counts steps of (1), each T_s = 0.1 s long, and T_d, T_i and (16) take it for seconds: 2000 steps of 0.1 s are 200 s, and (16), read in m/s, begins with 0.41 m/s in one step "
-                  "(16.force). Either T_s is 1 s, or the trip has 20,000 steps, with k/10 in (16) and (17). For u in N/kg and T_s = 1 s the bound rho^2 p^2/16 of Theorem 1, mended, is 0.00375, above Table 1's lambda (theorem1.stated.mass.1s.contracts): "
+                  "(16.force). Either T_s is 1 s, or the trip has 20,000 steps, with k/10 in (16) and (17). For u in N/kg, where (1) has no M and p is T_s, and T_s = 1 s the bound rho^2 p^2/16 of the Conclusion, mended, is 0.00375, above Table 1's lambda (theorem1.stated.mass.1s.contracts): "
                   "not every positive estimate makes the error of the first sample smaller, those between 0.00041 and 0.122 do not. For 20,000 steps the bound is 0.0000375, and Table 1 meets it (theorem1.stated.mass.contracts).")
 def steps_make_the_trip() -> Goal:
     """Steps times their length."""
@@ -129,11 +129,11 @@ def coefficients_positive() -> Goal:
              r"\frac{1}{M}f_b = \frac{2977 + 25.17 v + 0.2864 v^2}{M}\ \text{with (17)}", "violated", rests_on=("1", "3", "17"),
              at={**stated(M), v_i: Fraction(70), swing: Fraction(0)},
              origin="implied",
-             reading="By (1) f_b is a force, and by its numbers (17) is one in newtons over M. Speeds are read in m/s, which the paper does not print.",
+             reading="By (1) f_b is a force, and by its numbers (17) is one in newtons over M. Speeds are read in m/s, in which (1) gives them for N, kg and s; the text prints no unit. Both sides are in m/s^2.",
              note="(17) is divided by M, and (1) divides by M once more, so that the train runs with a resistance 350,000 "
                   "times too small. Either (17) is in N without its M, or u and, as Figure 4 has it, f_a are forces per unit of mass and "
-                  "(1) has no M. The paper does not say which, and what u(k,0) = 1500, lambda and the gains do depends on it: if (17) is in N, 1500 N does not move the train (u0.N); in N/kg the first trial is "
-                  "faster than (16) after one sample (u0.mass). The unit of u and phi_hat(k,1) should be stated.")
+                  "(1) has no M. The text does not say which, and what u(k,0) = 1500, lambda and the gains do depends on it: if (17) is in N, 1500 N does not move the train on a level line (u0.N); in N/kg the first trial is "
+                  "faster than (16) after one sample (u0.mass). The units of u and of the speeds, and phi_hat(k,1), should be stated.")
 def resistance_of_both() -> Goal:
     """Deceleration by (1) with (17) against the resistance in N over M, at 70 m/s."""
     per_kg = {s: (mean + part * swing) / M for s, (mean, part) in davis_newton.items()}
@@ -190,9 +190,9 @@ def simulated_distribution() -> Goal:
 first = sp.Symbol("u_0", positive=True)
 
 
-@paper.claim("u0.N", "u(k,0) = 1500 N does not move a train with the resistance (17) in N", "condition", r"u_f(k,0) < b_0", "proved",
+@paper.claim("u0.N", "u(k,0) = 1500 N does not move a train on a level line with the resistance (17) in N", "condition", r"u_f(k,0) < b_0", "proved",
              at={first: Fraction(FIRST_INPUT), b_0k: Fraction(2977)}, origin="ours",
-             note="If u is in N and (17) in N too (its M dropped), 1500 N does not even overcome the resistance of 2977 N at standstill.")
+             note="If u is in N and (17) in N too (its M dropped), 1500 N does not even overcome the resistance of 2977 N at standstill, unless f_a helps, down a slope.")
 def first_input_too_small() -> Goal:
     """Net force at standstill in the first trial."""
     return Goal((less(first, b_0k),))

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import sympy as sp
 
-from workbench.proof.claim import Goal, at_least, at_most, differ, equal, greater, less
+from workbench.proof.claim import Goal, Relation, at_least, at_most, differ, equal, greater, less
 
 from ..laws import K_d, K_p, e_next, e_now, pd_step
 from ..notation import T_d
 from ..paper import paper
 from ..plant import slope_coefficient, u_i, u_prev
-from ..stated_values import Reading, kilonewton_1s, newton, per_mass, per_mass_1s, stated
+from ..stated_values import LENGTH, SHORTEST, Reading, kilonewton_1s, newton, per_mass, per_mass_1s, stated
 from .section_2a_train import a, b, f_a_i, f_a_prev
 from .section_3a_random_lengths import length_i, sample
 from .section_3c_theorem_1 import e_one, e_two
@@ -44,27 +44,27 @@ length_prev, reached = sp.symbols("T_prev gamma_k", real=True)
 KEEPS = r"\text{on } [T_i + 1, T_d] \text{ the error is } 0, \text{ hence } u_f(k, i) = u_f(k, i - 1)"
 
 
-def _keeps_input(length: sp.Expr) -> Goal:
-    """(18) at a sample beyond `length`; trial i-1 has data up to its own length, which gamma_k = 0 or 1 says."""
+def _keeps_input(length: sp.Expr, least: int, *more: Relation) -> Goal:
+    """(18) at a sample beyond `length`; trial i-1 has data up to its own length, which gamma_k = 0 or 1 says; `least`: of lengths."""
     ended = (at_least(length_prev, sample + 1), equal(reached, 1)) if length == length_i else (at_least(sample, length_prev + 1), equal(reached, 0))
     law, = paper.shown("18")
-    lengths = (at_least(length, 1), at_least(length_prev, 1), at_least(sample, length + 1), at_most(sample, T_d), at_most(length_prev, T_d))
-    return Goal((equal(law.right.xreplace({e_next: reached * e_one, e_now: reached * e_two}), u_prev),), (*dict.fromkeys((*ended, *lengths)),))
+    lengths = (at_least(length, least), at_least(length_prev, least), at_least(sample, length + 1), at_most(sample, T_d), at_most(length_prev, T_d))
+    return Goal((equal(law.right.xreplace({e_next: reached * e_one, e_now: reached * e_two}), u_prev),), (*dict.fromkeys((*ended, *lengths)), *more))
 
 
 @paper.claim("18.missing", "On [T_i + 1, T_d] the input of trial i is kept", "implication", KEEPS, "gap", premises=("18", "18.error.ended"), severity="cosmetic", match="words",
-             reading="As printed, with the length T_i of the trial whose input is set; a trial before it that was longer has data there.",
+             reading="As printed, with the length T_i of the trial whose input is set; a trial before it that was longer has data there. T_d and the lengths are those of section 4.",
              note="A slip of the index: (14) and (18) use the errors of trial i-1, so the input is kept beyond T_(i-1): 18.missing.mended.")
 def pd_keeps_input_of_this_trial() -> Goal:
     """A trial that ends before the last one did."""
-    return _keeps_input(length_i)
+    return _keeps_input(length_i, SHORTEST + 1, equal(T_d, LENGTH))
 
 
 @paper.claim("18.missing.mended", "On [T_(i-1) + 1, T_d] the input of trial i is kept", "implication",
              r"k \ge T_{i-1} + 1 \Rightarrow u_f(k, i) = u_f(k, i - 1)", "proved", premises=("18", "18.error.ended"), origin="ours", mends="18.missing")
 def pd_keeps_input() -> Goal:
     """Both errors of (18) are missing."""
-    return _keeps_input(length_prev)
+    return _keeps_input(length_prev, 1)
 
 
 def _two_samples() -> tuple[sp.Expr, sp.Expr]:
@@ -105,12 +105,13 @@ sine_i, sine_prev = sp.symbols("sin_i sin_prev", real=True)
 
 @paper.claim("figure4.length", "The additional resistance changes with the length of the trial", "implication",
              r"\text{as the length of each trial changes, the train's additional resistance } f_a \text{ changes too}", "gap", premises=("2",), rests_on=("2",),
-             severity="data", match="words", reading="Two trials of different lengths that are at the same place at k meet different resistances there.",
+             severity="data", match="words", reading="Two trials of different lengths, from 1901 to 2000 as in section 4, that are at the same place at k, on a slope of one in a hundred, meet different resistances there.",
              note="By (2) f_a depends on the place alone, and the length of a trial enters neither (1) nor (2): two trials that have followed the same speeds up to k meet the same f_a, however "
                   "long they go on. f_a can change with the speeds of a trial, not with its length.")
 def resistance_by_length() -> Goal:
-    """(2) at the same place in trials of different lengths."""
-    return Goal((differ(f_a_i, f_a_prev),), (equal(f_a_i, slope_coefficient * sine_i), equal(f_a_prev, slope_coefficient * sine_prev), equal(sine_i, sine_prev), greater(f_a_i, 0), differ(length_i, length_prev), at_least(length_i, 1), at_least(length_prev, 1)))
+    """(2) at the same place in trials of different lengths, which by Assumption 3 are above T_min."""
+    stated_lengths = (x for length in (length_i, length_prev) for x in (at_least(length, SHORTEST + 1), at_most(length, LENGTH)))
+    return Goal((differ(f_a_i, f_a_prev),), (equal(f_a_i, slope_coefficient * sine_i), equal(f_a_prev, slope_coefficient * sine_prev), equal(sine_i, sine_prev), equal(sine_i, sp.Rational(1, 100)), greater(f_a_i, 0), differ(length_i, length_prev), *stated_lengths))
 
 
 paper.axiom("figure5", "Figure 5: the tracking of iCFDL-MFAILC gets better from trial to trial",

@@ -191,6 +191,23 @@ def test_the_train_breaks_what_the_conclusion_rests_on(claims):
     assert decision.verdict == "gap"
     quotient = at["b"] + at["a"] * at["Delta_v_k"] / at["Delta_u_i"]
     assert quotient < 0 < at["e_prev"] < at["e_prev"] - quotient * at["Delta_u_i"]
+    # The same by the law itself: trials 0 and 1 start alike, and both samples use the first estimate.
+    b, first = at["b"], at["phi_hat_1"]
+    loops = [Sample(at["rho"], at["lamda"], 1, 1, at["epsilon"], first, Fraction(0)) for _ in range(2)]
+    assert b == Fraction(1, 3_500_000) and at["lamda"] > at["rho"] ** 2 * b**2 / 4
+    difference, errors = 0, []
+    for loop, error in zip(loops, (at["e_2"], at["e_prev"]), strict=True):
+        difference = at["a"] * difference + b * loop.learn(error)
+        errors.append(error - difference)
+    assert abs(errors[0]) < abs(at["e_2"]) and errors[1] == Fraction("0.17499") > at["e_prev"]
+
+
+def test_a_random_first_estimate_leaves_no_power_of_a_number():
+    """Why claim theorem1.mended asks for a first estimate that is not random: E|e| falls like 1/i."""
+    first = 2.0 ** -np.arange(1, 60)  # each with the chance of its own size; v(k+1) = u(k), and so small an error
+    taken = 0.5 * first / (1 + first**2)  # that (13) puts the first estimate back in every trial
+    left = [float(np.sum(first * (1 - taken) ** i)) * i for i in (1_000, 10_000, 100_000)]
+    assert min(left) > 0.95 * max(left) > 1
 
 
 @pytest.mark.parametrize(("phi", "estimate", "slow"), [(0.1, 0.1, True), (0.01, 0.01, True), (0.1, 0.007, False)])
