@@ -214,7 +214,10 @@ def test_a_line_whose_name_says_its_section_is_not_told_another():
 @pytest.mark.parametrize(("equation", "title", "place"), [
     ("45.a", "Rate of V_2", "Equation (45) “Rate of V_2”"), ("45.a", "", "Equation (45)"), ("45", "V", "Equation (45)"),
     ("theorem1.1.z", "z is bounded", "Theorem 1.1 “z is bounded”"), ("objective.stable", "", "Objective"),
-    ("gamma", "gamma has a mean", "The statement “gamma has a mean”"), ("gamma", "", "Statement")])
+    ("gamma", "gamma has a mean", "The statement “gamma has a mean”"), ("gamma", "", "Statement"),
+    ("theorem1.mended", "Theorem 1 where b > 0", "Theorem 1 “where b > 0”"),
+    ("6.same", "(6) at rest", "Equation (6) “at rest”"),
+    ("theorem1.whole", "Theorem 12 and more", "Theorem 1 “Theorem 12 and more”")])
 def test_a_part_of_a_line_is_told_by_what_it_says(equation, title, place):
     assert place_of(equation, title) == place
 

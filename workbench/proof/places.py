@@ -36,16 +36,16 @@ def place_of(equation: str, title: str | None = None) -> str:
         return beside[0] + (_quoted(title) if "." in equation else "")
     found = _NUMBERED.fullmatch(equation)
     if found:
-        return f"Equation ({found[1]})" + _part(found[2], title)
+        return _with_part(f"Equation ({found[1]})", found[2], title)
     found = _NAMED.fullmatch(equation)
     if found and found[1] in _WORDS:
-        return f"{_WORDS[found[1]]} {found[2]}" + _part(found[3], title)
+        return _with_part(f"{_WORDS[found[1]]} {found[2]}", found[3], title)
     stem, dot, rest = equation.partition(".")
     if re.fullmatch(r"[IVX]+", stem):
-        return f"Section {stem}" + _part(dot + rest, title)
+        return _with_part(f"Section {stem}", dot + rest, title)
     if title is not None and stem not in _UNNUMBERED:
         return f"{_TOLD.strip()}{_quoted(title)}" if title else STATEMENT
-    return _UNNUMBERED.get(stem, stem[:1].upper() + stem[1:]) + _part(dot + rest, title)
+    return _with_part(_UNNUMBERED.get(stem, stem[:1].upper() + stem[1:]), dot + rest, title)
 
 
 def whole_of(equation: str, title: str) -> str:
@@ -54,16 +54,18 @@ def whole_of(equation: str, title: str) -> str:
     return beside[0] if beside else place_of(equation, "")
 
 
-def _part(suffix: str, title: str | None) -> str:
-    """What tells parts of a line apart, in brackets or told by its title; numbers of parts as they are."""
+def _with_part(place: str, suffix: str, title: str | None) -> str:
+    """A place and what tells its parts apart, in brackets or told by the title; numbers of parts as they are. A title
+    that begins with the place goes on from it: Theorem 1 “where b > 0”."""
     numbers, rest = re.fullmatch(r"((?:\.\d+(?!\w))*)(.*)", suffix).groups()  # type: ignore[union-attr]
+    place += numbers
     if not rest:
-        return str(numbers)
-    return numbers + (f" [{rest[1:]}]" if title is None else _quoted(title))
+        return place
+    return place + (f" [{rest[1:]}]" if title is None else _quoted(title, place.removeprefix("Equation ")))
 
 
-def _quoted(title: str) -> str:
-    return f" “{subject_of(title)}”" if title else ""
+def _quoted(title: str, place: str = "") -> str:
+    return f" “{subject_of(title).removeprefix(f'{place} ')}”" if title else ""
 
 
 def subject_of(title: str) -> str:

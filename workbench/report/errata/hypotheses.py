@@ -26,7 +26,7 @@ def needed(needs: Sequence[Need]) -> list[Block]:
     plain = [need for need in needs[1:] if not need.rates and all(map(_SIGN.fullmatch, need.conditions))]
     used = [need for need in needs[1:] if need not in plain]
     if sum(len(text) for need in used for text in (need.statement, *need.conditions, *need.rates)) > MOST:
-        names = worded(listed([f"“{need.title}”" for need in used]))
+        names = worded(listed([place_of(need.equation, need.title) for need in used]))
         return [*blocks, Paragraph(f"{names}, which are part of the statement: what each says, under which conditions "
                                    "and along which motion, is written out with the proofs below.", "Its proof uses")]
     if used:

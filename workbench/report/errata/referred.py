@@ -63,11 +63,12 @@ def _shown(d: Decision) -> list[Block]:
     """What a line is proved for, or where it fails, and what letters are."""
     own, certificate = letters_of(d), d.certificate or {}
     goal = certificate.get("goal") or {}
+    given = listed_conditions({UNDER: conditions_of(goal), ALONG: motion_of(goal)}) if goal else []
     shown: list[Block] = []
-    if d.verdict == "proved" and goal:
-        shown = listed_conditions({UNDER: conditions_of(goal), ALONG: motion_of(goal)})
+    if d.verdict == "proved":
+        shown = given
     elif point := cached_counterexample(certificate) if goal else None:
         at = breaks_at(point)
-        shown = [Formula(point.relation, STATEMENT_CHECKED), Paragraph(f"{at[:1].upper()}{at[1:]}.", "Finding")]
+        shown = [Formula(point.relation, STATEMENT_CHECKED), *given, Paragraph(f"{at[:1].upper()}{at[1:]}.", "Finding")]
     told = legend(shown, own)
     return [*([Paragraph(told, "Letters")] if told else []), *in_blocks(shown, own)]
