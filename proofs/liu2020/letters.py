@@ -76,4 +76,13 @@ LETTERS = {
     "W_off_square": r"$\|W_f^* - W_{f0}\|^2$",
     "delta_off_square": r"$(\delta - \delta_0)^2$",
     "rho_smaller": r"a smaller $\rho$",
+    "vtilde_rms": r"the RMS value of $\tilde v$, m/s",
+    "s_rms": "the RMS value of $s - s_d$, m",
+    "v_rms": "the RMS value of $v - v_d$, m/s",
+    "stilde_rms": r"the RMS value of $\tilde s$, m",
+    "T": "the least length of the run, s",
+    "stilde_largest": r"the largest size of $\tilde s$ in Figure 14, m",
+    "v_error_5": "the RMS value of $v - v_d$ for Value 5, m/s",
+    "v_tilde_1": r"the RMS value of $\tilde v$ in the first column, m/s",
+    "v_tilde_2": r"the RMS value of $\tilde v$ in the second column, m/s",
 }

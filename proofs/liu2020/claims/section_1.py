@@ -33,10 +33,10 @@ def robust_term_without_speed() -> Goal:
     return Goal((equal(robust_1, robust_1.xreplace({v: v_other})),))
 
 
-@paper.claim("contribution2.mended", "The tracking control needs the rate of the measured position", "identity",
+@paper.claim("contribution2.mended", "The tracking control needs no measured speed where the measured position is differentiated", "identity",
              r"D_1 = -\gamma(\hat v - \tfrac{ds}{dt})\hat\delta", "proved", origin="ours", mends="contribution2",
              severity="result", rests_on=(),
-             note="The speed need not be measured where the position is differentiated.")
+             note="ds/dt, the rate of the measured position, is the running speed: it is needed, but no sensor of it.")
 def robust_term_of_rate() -> Goal:
     """D_1 of (20) with the rate of the position for the speed."""
     return Goal((equal(robust_1, -gamma_1(v_hat - D(s)) * delta_hat),), flow={s: v})

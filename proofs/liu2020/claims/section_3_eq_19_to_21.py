@@ -186,7 +186,7 @@ def remark_1_linear() -> Goal:
              note="v_tilde stays at 30 log(3) = 33 m/s for ever, though the network is exact, the priors are right and (40) "
                   "holds, while W_f_hat and delta_hat grow against each other. This does not refute the remark, if it asks "
                   "for some gains: v_tilde there is kappa_1 log(3)/2, and kappa_1 is 60 m/s. Whether some gains do for all "
-                  "starts is open: for k_1 = k_3 = 2, alpha_1 = 8, beta_1 = 0.05, sigma_f = 0.01, kappa_1 = 0.1 simulated errors "
+                  "starts is open: for k_1 = k_3 = 2, k_2 = 5, Gamma_f = h_f = 1, alpha_1 = 8, beta_1 = 0.05, sigma_f = 0.01, kappa_1 = 0.1 simulated errors "
                   "come to rest near zero, while delta_hat and W_f_hat diverge; delta_hat can for all gains (48.zero). With the "
                   "leakage turned the remark holds, see remark2.mended.")
 def estimates_settle() -> Goal:

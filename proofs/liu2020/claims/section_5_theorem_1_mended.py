@@ -53,7 +53,7 @@ prior_size, off_size = sp.symbols("W_off_square delta_off_square", nonnegative=T
              r"\text{for fixed}\ \delta, \delta_0, W_{f0}, \kappa_1\ \text{and every}\ \varphi > 0\ \text{there are gains with (40) and}\ "
              r"\frac{\mu_1}{\rho_1} \le \varphi", "proved", origin="ours",
              mends="47.small", rests_on=(), premises=("44.weights.mended", "44.estimate.glyph"),
-             note="Witness: sigma_f = beta_1 = 1, rho = mu_1/phi, Gamma_f = rho times the "
+             note="Witness, for mu_1 > 0; for mu_1 = 0 any gains with (40) do: sigma_f = beta_1 = 1, rho = mu_1/phi, Gamma_f = rho times the "
                   "identity, alpha_1 = rho, k_1 = k_3 = rho/2, k_2 = 1 + k_1 k_3.")
 def arbitrarily_small() -> Goal:
     """The entries of the corrected rho_1 and the bound phi for the gains of the witness."""

@@ -24,10 +24,14 @@ from .section_5_theorem_1_mended import mu_1_bound
              r"ultimately bounded}", "refuted",
              severity="result", match="words", closed_loop=True, rests_on=("15", "43"), scope="one neuron",
              reading="Along (13), (18) to (21): a bounded signal is in the end below t. Decided of W_f_tilde^T h_f, which is f_hat - f of "
-                     "(14) where the network is exact.",
+                     "(14) where the network is exact. Time is not limited, as in (47) and (48); Assumption 2 alone "
+                     "speaks of a finite interval. Assumption 5 is taken for speeds within a bound: for all speeds no train meets it, "
+                     "v_2 = (L_1 + L_2)/(2 a_2) and v_1 = v_2 + 1 break it for all L_1 and L_2 (10.everywhere).",
              note="The leakage alone does it: with the plus sign of (21) delta_hat leaves its prior as exp(alpha_1 beta_1 t) while all "
                   "other errors are zero, for all gains (48.zero). In the motion here f_hat of (14) grows as exp(t) and D_1 as -exp(t), "
                   "while v_tilde stays where it is; the network is exact (eps_tilde = delta = 0), the priors are right, (40) holds. "
+                  "A train realises it: it stands, u = f_d = a_0, d = 0 and W_f* = 0, so that f = 0, and z_1_hat rests in the "
+                  "neuron's centre. "
                   "That delta is not constant (38.delta) is a gap of the proof beside it. With minus signs before the leakage "
                   "and a constant delta >= |eps_tilde_f| the theorem holds, see theorem1.mended. (40), and (21) as a law that is "
                   "taken, are missing among its hypotheses.")

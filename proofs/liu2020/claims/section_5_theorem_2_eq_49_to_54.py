@@ -61,7 +61,7 @@ def v2_rate_without_v1() -> Goal:
              r"\dot{\tilde\theta} = \dot{\hat\theta}", "gap", origin="implied", rests_on=("50",),
              correction=lambda: moves_alike(theta_hat, theta, constant_truth=True),
              corrected_statement=r"\theta\ \text{constant} \Rightarrow \dot{\tilde\theta} = \dot{\hat\theta}",
-             note="theta contains d(t), which (70) and (71) let oscillate; the term -theta_tilde theta'/alpha_2 is missing "
+             note="theta contains d(t), which (70) and (71) let oscillate and (71) jump at t = 1000 s; the term -theta_tilde theta'/alpha_2 is missing "
                   "from (52). As with 38.delta, a constant bound theta of |eps_v - (M/chi) d| is needed.")
 def theta_moves() -> Goal:
     """D(theta_hat - theta) with a moving theta."""

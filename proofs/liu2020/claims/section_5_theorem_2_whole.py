@@ -5,7 +5,7 @@ from __future__ import annotations
 from workbench.proof.claim import D, Goal, at_most
 
 from ..error_dynamics import t, theta_tilde, w_v
-from ..exact_motions import tracking_motion
+from ..exact_motions import hidden_v, tracking_motion, weight_v
 from ..laws import alpha_2, beta_2, e_v, k_5, sigma_v
 from ..lyapunov import V_2, V_tracking, bounded_by_eigenvalue, largest_v, norm_v, positive, rho, square_v
 from ..paper import EVERY_NETWORK, paper
@@ -21,19 +21,20 @@ from .section_5_theorem_2_eq_55_to_60 import bound_tracking, mu_2_stated
              severity="result", match="words", closed_loop=True, rests_on=("23.bounded", "26.input", "28", "43", "55.first"),
              scope="one neuron in each network",
              reading="Along (13), (18) to (21), (26), (28), (31) to (35): a bounded signal is in the end below t. Decided of "
-                     "theta_tilde.",
+                     "-W_v_tilde^T h_v, a term of (33) but for its sign.",
              note="The leakage alone does it: with the plus sign of (35) theta_hat leaves its prior as exp(alpha_2 beta_2 t) while all "
                   "other errors are zero, for all gains (60.zero). In the motion here theta_hat, and with it D_2, grows as exp(t) "
                   "and W_v_hat^T h_v as -exp(t), while e_v stays where it is; networks are exact (eps_tilde = 0, theta = 0), "
                   "priors right, (40) holds. A train realises it: it stands, u = f_d = a_0 = 1 and d = 0, s_d rests, W_f* = 0, W_v* = 2, "
-                  "and the inputs of both networks are constant. With the leakage and (32) turned V_2 - V_1 decays, see "
+                  "and the inputs of both networks are constant. Section 7 speaks of the tracking and estimation errors alone: they stay "
+                  "bounded in this motion, and whether they do in every one is open. With the leakage and (32) turned V_2 - V_1 decays, see "
                   "theorem2.mended, but that rests on (28), whose f_v contains the input and is no function of z_2, so that "
                   "a bounded eps_v presupposes the bounded input that is to be shown (26.input, 28.function): Theorem 2 is "
                   "not mended by the signs alone. (12), (20), (21), as laws that are taken, and (40) are missing among its "
                   "hypotheses.")
 def theorem_2() -> Goal:
-    """theta_tilde = 2 exp(t) - a constant along the printed loop."""
-    return tracking_motion(at_most(theta_tilde, t), width=1)
+    """-W_v_tilde h_v = exp(t) - a constant along the printed loop."""
+    return tracking_motion(at_most(-weight_v * hidden_v, t), width=1)
 
 
 errors_vanish(2, "60", ("28", "43", "55.first"))

@@ -149,10 +149,26 @@ def test_delta_hat_leaves_its_prior_for_all_gains_while_nothing_drives_the_laws(
 
 
 def test_of_tables_3_and_4_it_is_table_3_that_is_off_by_ten():
-    gains, speed = np.array(stated["gains"]["k_1"]), np.array(stated["table_3"]["v_tilde_mps"])
-    assert np.all(np.abs(gains[6:9] * speed[6:9] - 0.52) < 0.015)
-    assert gains[9] * stated["table_4"]["v_tilde_mps"][1] == pytest.approx(0.53, abs=0.005)
-    assert gains[9] * speed[9] == pytest.approx(5.3, abs=0.01)
+    """What (12) with k_3 v_tilde needs of s_tilde and v_tilde for one acceleration, typed from Tables 2 to 4."""
+    k_2, k_3 = (np.array(stated["gains"][name]) for name in ("k_2", "k_3"))
+    position, speed = (np.array(stated["table_3"][row]) for row in ("s_tilde_m", "v_tilde_mps"))
+    needed = k_2 * position + k_3 * speed
+    by_table_4 = k_2[9] * stated["table_4"]["s_tilde_m"][1] + k_3[9] * stated["table_4"]["v_tilde_mps"][1]
+    assert np.all((needed[3:9] > 0.665) & (needed[3:9] < 0.715)) and np.all((needed[:3] > 0.75) & (needed[:3] < 0.845))
+    assert by_table_4 == pytest.approx(0.66, abs=0.005) and needed[9] == pytest.approx(6.6, abs=0.05)
+    # With k_3 s_tilde' instead, which is zero while the errors rest, k_2 s_tilde alone does it.
+    alone = k_2 * position
+    assert alone[0] == pytest.approx(0.62, abs=0.005) and alone[9] == pytest.approx(0.002, abs=0.0005)
+
+
+def test_by_13_the_printed_estimation_errors_are_of_steps_of_a_tenth_and_a_hundredth_of_a_second():
+    """Euler's steps of T leave k_1 s_tilde = v_tilde + a T/2 at the acceleration a."""
+    k_1, k_2, k_3 = (np.array(stated["gains"][name]) for name in ("k_1", "k_2", "k_3"))
+    position, speed = (np.array(stated["table_3"][row]) for row in ("s_tilde_m", "v_tilde_mps"))
+    position[9], speed[9] = stated["table_4"]["s_tilde_m"][1], stated["table_4"]["v_tilde_mps"][1]
+    steps = 2 * (k_1 * position - speed) / (k_2 * position + k_3 * speed)
+    assert np.all(np.abs(steps[3:9] - 0.1) < 0.011) and steps[9] == pytest.approx(0.011, abs=0.0005)
+    assert (k_1 * position / speed)[3:9].max() == pytest.approx(1.6, abs=0.05)
 
 
 def test_some_gains_bring_the_printed_observer_to_rest_while_its_estimates_diverge():
