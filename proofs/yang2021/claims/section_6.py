@@ -146,7 +146,7 @@ moved_by_speed_error = round(float(stated_gains[lambdas[2]]) * cruise**4, -2)
                      f"to {cruise:.1f} m/s.",
              note=f"The last term of (33) is {barrier_at(0.142):.1f} m/s^2 in size there, and {barrier_at(0.178):.1f} and {barrier_at(0.2):.1f} m/s^2 at the 0.178 m and 0.2 m of Table 2, the latter of POCRAC, if its "
                   "k is the same. So at 158 s the input was at least 3.7 m/s^2 in size, six times the largest that the text gives, 0.6 m/s^2 (of 52 s to 248 s it gives none), or the estimates were off by more than "
-                  f"3 m/s^2, several times what they estimate. They can be: at {cruise:.1f} m/s (36) moves c-hat x_2^2 at a rate of {moved_by_speed_error:,.0f}/s^2 times e_2, and takes up the last term within a tenth "
+                  f"3 m/s^2, several times what they estimate. They can be: at {cruise:.1f} m/s (36) moves c-hat x_2^2 at the rate of {moved_by_speed_error:,.0f} e_2 (in SI units), and takes up the last term within a tenth "
                   "of a second. Please print input and estimates there, and what pushed the train so far: near 0 the last term is a spring of 1/k^2, which balances the "
                   f"{float(STATED_F_STAR)} m/s^2 of Table 1 at {float(STATED_F_STAR) * 1000 * float(stated_gains[k])**2:.0f} mm.")
 def printed_figures_fit() -> Goal:
