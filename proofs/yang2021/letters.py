@@ -88,6 +88,7 @@ LETTERS = {
     "e_max": "the largest $|e_1|$ that is told of Figure 9",
     "a_d": r"$\ddot x_d$",
     "u_max": "the size of the input that the text tells outside 52 s to 248 s",
+    "v_mean": "the mean speed of the first 158 s, in m/s",
     "T_s": "the sampling period",
     "v_c": "the speed of cruising",
     "gain": r"$\lambda$",

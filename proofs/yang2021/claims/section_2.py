@@ -79,7 +79,8 @@ def newton_per_mass() -> Goal:
              r"v = 0,\ u = 0,\ f(x) = 0 \Rightarrow \dot{x}_2 = 0", "refuted", origin="implied", severity="cosmetic", rests_on=("2", "4"),
              reading="Resistances do not move a train: at rest on level track and without an input the train of (4) stays at rest, at the stated a* = 0.3.",
              note="(2) is the resistance of a train that runs. At v = 0, where the run of section 6.1 starts, (4) with (2) begins to roll backwards: there the resistance is whatever "
-                  "holds the train, up to a_0. The proof takes (4) as it is.")
+                  "holds the train, up to a_0. The proof takes (4) as it is. 0.3 m/s^2 is also some ten times what trains have at low speed, 0.01 to 0.03 m/s^2: "
+                  "please print the units of a*, b* and c*.")
 def resistance_at_rest() -> Goal:
     """The acceleration of (4) at rest, without input and additional resistance."""
     stated = tuple(equal(s, sp.Rational(v.numerator, v.denominator)) for s, v in stated_davis.items())

@@ -172,7 +172,7 @@ one_h = sp.Symbol("h", positive=True)
                      "as they are at the same instants. Where f-hat = f and the weights rest, w_j(t-1) = w_j(t-2), the step of (10) and (11) is zero, whatever length of time it stands for.",
              note="They are two laws: where f-hat = f and the weights rest, (10) and (11) leave them and (37) does not. (10) to (15) also need f, which is unknown (10.measured), "
                   "and move centers and widths, with which W* would move (8.fixed). Theorem 1 is of (37) with fixed centers and widths: (37) should be named as the law of the weights, "
-                  "and (10) to (15) be no part of the controller.")
+                  "and (10) to (15) be no part of the controller. If (12) to (15) alone ran beside (37), for centers and widths, the weights had one law, and W* moved all the same.")
 def one_law() -> Goal:
     """The rate of (37) where the step of (10) is zero."""
     error_2 = sp.Symbol("e_2", real=True)

@@ -31,7 +31,8 @@ smallest = sp.Min(2 * alpha, 2 * beta - 1, chi, *(lam * sigma for lam, sigma in 
              r"\text{The inequality in Equation (52) means that there is a moment } T, \text{ and, for } \forall t > T, 0 \leq V(t) \leq "
              r"\frac{l}{\mu} \text{ is always established}", "gap", premises=("52",), match="words",
              reading="For every V with (51) and (52).",
-             note="(51) and (52) let V stay above l/mu for ever, and in a motion of the loop itself it does (52.T.loop). Where V(0) <= l/mu the line holds with T = 0 (52.T.start), so at "
+             note="(51) and (52) let V stay above l/mu for ever, and in a motion of the loop itself it does (52.T.loop): x_d' = 0, the train stands at x_d and on the center of the one neuron, so that h = 1, f = W* = a* holds it "
+                  "there, and a-hat = W-hat = -exp(-t) cancel in (33). Where V(0) <= l/mu the line holds with T = 0 (52.T.start), so at "
                   "the numbers of section 6.1 with first weights of 0 and a desired curve that starts at 0 and at rest (52.T.stated). True in any case is the limit, and with it (53) to (57), where 'converge to' a set means that the "
                   "distance to it goes to zero.")
 def moment_from_52() -> Goal:

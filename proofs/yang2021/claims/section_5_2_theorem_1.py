@@ -120,7 +120,8 @@ def distance_from_barrier() -> Goal:
                      "constant coefficients, which the theorem calls uncertain, and gains with mu > 0. eps* in l bounds eps wherever the train is (7.bounded), and so contains f*: the "
                      "smaller one of (8) is of Theta_x, and that x stays there is not shown.",
              note="It stands by V' <= -mu V + l (51.whole, along the loop itself) and the limit of (52). It needs neither Assumption 1, nor "
-                  "strictness in Lemma 2, nor the moment T of (52), nor that the network approximates well. How small the "
+                  "strictness in Lemma 2, nor the moment T of (52), nor that the network approximates well. With (49) it needs mu > 0, and so beta > 1/2 (49.positive), where "
+                  "the text below (37) has beta > 0; by another split of (43) every beta > 0 would do (51.beta). How small the "
                   "neighbourhood is at the stated gains is another matter, see 53.stated.")
 def theorem_1() -> Goal:
     """All errors from the time on that 52.T.mended names."""
@@ -170,8 +171,9 @@ def _influence() -> Goal:
              r"parameters}", "refuted", match="words",
              rests_on=(), correction=_influence,
              corrected_statement=r"\text{the influence of the initial estimation errors on } V(0):\ "
-                                 r"\lambda_i \ge \tfrac{2}{\rho}\tilde{a}_i(0)^2,\ \chi \ge \tfrac{2}{\rho}\tilde{W}(0)^2 \Rightarrow "
-                                 r"\tfrac{1}{2\chi}\tilde{W}(0)^2 + \sum_i\tfrac{1}{2\lambda_i}\tilde{a}_i(0)^2 \le \rho",
+                                 r"\chi \ge \tfrac{2}{\rho}\tilde{W}^2(0),\ \lambda_1 \ge \tfrac{2}{\rho}\tilde{a}^2(0),\ \lambda_2 \ge \tfrac{2}{\rho}\tilde{b}^2(0),\ "
+                                 r"\lambda_3 \ge \tfrac{2}{\rho}\tilde{c}^2(0) \Rightarrow \tfrac{1}{2\chi}\tilde{W}^2(0) + \tfrac{1}{2\lambda_1}\tilde{a}^2(0) + "
+                                 r"\tfrac{1}{2\lambda_2}\tilde{b}^2(0) + \tfrac{1}{2\lambda_3}\tilde{c}^2(0) \le \rho",
              reading="|a-hat(0) - a*| <= rho for every rho > 0, whatever the gains: the first half of the sentence, on the "
                      "errors themselves.",
              note="No gain enters the initial errors, and that half of the sentence should be struck. At the stated a-hat(0) = 0.25 and a* = 0.3 the error is 0.05. Their "

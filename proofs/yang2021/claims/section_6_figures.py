@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from math import ceil
 
 import sympy as sp
 
@@ -37,6 +38,29 @@ def _input(resisted: int) -> Goal:
     stated = tuple(equal(s, sp.Rational(v.numerator, v.denominator)) for s, v in stated_davis.items())
     return Goal((equal(u, D(x_2) + resisted * (a_star + b_star * x_2 + c_star * x_2**2 - f)),),
                 (at_least(x_2, 0), *stated), {x_2: plant.rates[x_2]})
+
+
+mean_speed = sp.Symbol("v_mean", nonnegative=True)
+
+
+def _as_far_as_the_small_radii(shown: Relation, speed: Relation) -> Goal:
+    """Where the train is 158 s after it started at 0, against the beginning of the small radii of Table 1."""
+    return Goal((shown,), (speed,))
+
+
+@paper.claim("table1.place", "The largest position error, at 158 s, is where Table 1 has its small radii or large slopes", "implication",
+             r"\text{the error grows 'on a route with a large slope and complex curve', is largest at 158 s and 'at other times almost zero'} \Rightarrow x_1(158\,\mathrm{s}) \ge 18000\,\mathrm{m}",
+             "gap", origin="implied", severity="data", section="6.2", rests_on=(),
+             correction=lambda: _as_far_as_the_small_radii(less(158 * mean_speed, 18000), at_most(mean_speed, 110)),
+             corrected_statement=r"v_{\mathrm{mean}} \le 110\,\tfrac{m}{s} \Rightarrow 158\,\mathrm{s} \cdot v_{\mathrm{mean}} < 18000\,\mathrm{m}",
+             reading="The error and the hard section are the text's, sections 6.1 and 6.2; that they meet is implied. Table 1 gives its ranges no unit; they are read in metres here, as everywhere in these corrections. Its radii of 800 m and 700 m begin at 18,000, its slopes of 5, 2.5 and -3 per mille at "
+                     f"21,400. The train starts at 0, and its mean speed is at most {cruise:.1f} m/s, rounded up to {ceil(cruise)}, at which a* + b* v + c* v^2 is 0.6 m/s^2, the input of the common section.",
+             note=f"At {cruise:.1f} m/s the train has come some {158 * cruise / 1000:.1f} km at 158 s, where Table 1 has -1.5 per mille and 1200 m, and {248 * cruise / 1000:.1f} km at 248 s, when the time ends in which the "
+                  "text has slope and curve overcome; all that is steeper than 2 per mille comes later, where the error is told to be almost zero. To be at 18 km by 158 s it would have run at 410 km/h. So the ranges are not "
+                  "in metres, or the error at 158 s has another cause: please print the unit, and the disturbance that was added. Tenths of a metre, a line of 5.4 km, would fit the times.")
+def error_is_where_the_line_is_hard() -> Goal:
+    """158 s at the speed of the common section, rounded up to whole m/s."""
+    return _as_far_as_the_small_radii(at_least(158 * mean_speed, 18000), equal(mean_speed, ceil(cruise)))
 
 
 assert scenario.printed_table is not None

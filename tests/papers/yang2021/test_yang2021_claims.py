@@ -9,6 +9,7 @@ from scipy.integrate import solve_ivp
 
 GAINS = {"alpha": 1.0, "beta": 1.0, "chi": 1.0, "k": 1.0, "lam": 1.0, "sigma": 1.0}
 B_STAR, C_STAR, W_STAR, FORCE = 1 / 250, 1 / 6250, 0.3, 0.3
+CRUISE = 32.57  # m/s, at which a* + b* v + c* v^2 is 0.6 m/s^2
 
 
 def loop(a_star, f, x_d=0.0, gains=GAINS):
@@ -110,25 +111,58 @@ def test_the_input_is_bounded_by_the_level_of_v():
 def test_the_bound_of_52_over_the_stated_run():
     """Claims 53.start and 52.T.stated, from the numbers of section 6.1 typed anew."""
     first = (0.05**2 + 0.004**2 + 0.00016**2) / (2 * 0.01)
-    limit = ((9.80665 * 0.0055 / 2) ** 2 + 0.005 * (0.3**2 + 0.004**2 + 0.00016**2)) / 2 / 5e-5
-    bound = limit + (first - limit) * np.exp(-5e-5 * np.linspace(0, 1800, 50))
-    assert np.all(np.diff(bound) > 0) and bound[-1] <= 1.13
-    assert np.sqrt(2 * bound[-1]) <= 1.51 and 0.21 * np.sqrt(1 - np.exp(-2 * bound[-1])) <= 0.199
+    of_best_and_error = ((0.0, 9.80665 * 0.0055 / 2), (0.0, 0.0564), (0.0177**2, 0.0387), (1.0, 0.03))  # |W*|^2, eps*
+    for best, error in of_best_and_error:
+        limit = (error**2 + best + 0.005 * (0.3**2 + 0.004**2 + 0.00016**2)) / 2 / 5e-5
+        bound = limit + (first + best / 0.2 - limit) * np.exp(-5e-5 * np.linspace(0, 1600, 50))
+        assert np.all(np.diff(bound) > 0) and bound[-1] >= 1.02
+        assert np.sqrt(2 * bound[-1]) >= 1.42 and 0.21 * np.sqrt(1 - np.exp(-2 * bound[-1])) >= 0.195
+    assert 53880 / CRUISE > 1600
     for best in (0.0, 0.1, 3.0):
         assert first + best / 0.2 <= (0.005 * 0.3**2 + best) / 2 / 5e-5
 
 
 def test_the_command_of_33_at_the_printed_error():
-    """Claim 33.figures: the least size of the input, behind and ahead, with what is taken of estimates and curve."""
-    rate, estimates, acceleration = (axis.ravel() for axis in np.meshgrid(*(
-        np.linspace(*ends, 21) for ends in ((-0.26, 0.26), (0, 1), (-1, 1)))))
+    """Claim 33.figures: how far the input is from the sum of the estimates, behind and ahead."""
+    rate, acceleration = (axis.ravel() for axis in np.meshgrid(np.linspace(-0.26, 0.26, 21), np.linspace(-1, 1, 21)))
 
-    def command(e_1):
+    def without_estimates(e_1):
         r_dot, e_2 = acceleration - 0.5 * rate, rate + 0.5 * e_1
-        return estimates + r_dot - 0.51 * e_2 - e_1 / (0.21**2 - e_1**2)
+        return r_dot - 0.51 * e_2 - e_1 / (0.21**2 - e_1**2)
 
-    assert np.min(command(-0.142)) == pytest.approx(4.706, abs=1e-3)  # against 0.6
-    assert np.max(command(0.142)) == pytest.approx(-3.706, abs=1e-3)
+    assert np.min(without_estimates(-0.142)) == pytest.approx(4.706, abs=1e-3)
+    assert np.max(without_estimates(0.142)) == pytest.approx(-4.706, abs=1e-3)
+    speeds = np.linspace(0, CRUISE, 50)
+    estimated = np.add.outer((-0.06, 0.06), 0.3 + B_STAR * speeds + C_STAR * speeds**2)
+    assert np.all((estimated >= 0) & (estimated <= 1))
+
+
+def test_the_estimates_take_up_the_last_term_of_33_at_cruise():
+    """Note of claim 33.figures: they may be off by several m/s^2, so that its input is not told by the error alone."""
+    alpha, beta, chi, k, lam, sigma = 0.5, 0.51, 0.1, 0.21, 0.01, 0.005
+
+    def rates(_, state):
+        e_1, e_2, a, b, c, w = state
+        x_2 = e_2 - alpha * e_1 + CRUISE
+        resisted = a - 0.3 + (b - B_STAR) * x_2 + (c - C_STAR) * x_2**2 - w
+        return [e_2 - alpha * e_1, resisted - beta * e_2 - e_1 / (k**2 - e_1**2), -lam * (e_2 + sigma * a),
+                -lam * (x_2 * e_2 + sigma * b), -lam * (x_2**2 * e_2 + sigma * c), chi * e_2 - chi * w]
+
+    found = solve_ivp(rates, (0.0, 0.1), [0.142, 0.0, 0.3, B_STAR, C_STAR, 0.0], max_step=1e-4, rtol=1e-9, atol=1e-12)
+    e_1, e_2, a, b, c, w = found.y
+    x_2 = e_2 - alpha * e_1 + CRUISE
+    estimates = a + b * x_2 + c * x_2**2 - w
+    assert estimates[0] < 1 and np.max(estimates) > 5.9
+    assert np.min(e_1) > 0.13
+
+
+def test_the_place_of_the_train_at_the_told_times():
+    """Claim table1.place, for a train that runs at the speed of the common section all the time."""
+    assert abs(0.3 + B_STAR * CRUISE + C_STAR * CRUISE**2 - 0.6) < 1e-3
+    assert 4600 < 158 * CRUISE < 9200  # -1.5 per mille, 1200 m
+    assert 248 * CRUISE < 9200  # before the radii of 800 and 700 m and the slopes of 5, 2.5 and -3 per mille
+    small_radii = 18000.0
+    assert abs(small_radii / 158 * 3.6 - 410) < 1 and small_radii > 158 * 110
 
 
 def test_two_trains_with_different_resistance_and_disturbance_move_alike():
