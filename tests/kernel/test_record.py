@@ -71,6 +71,11 @@ def test_only_what_was_accepted_is_noted(paper):
     assert accepted_goals([replace(found[0], text="0" * 64)], texts) == {}
     assert accepted_goals([replace(found[0], claim="other2031:1")], texts) == {}
     assert accepted_goals([replace(found[0], text="")], {}) == {}
+    # Of what lies in the folder the rows tell, of the rest what was noted.
+    before = {(row.claim, row.goal_digest) for row in found}
+    assert accepted_goals(found, texts, before) == accepted
+    assert accepted_goals(found[1:], texts, before) == accepted
+    assert accepted_goals(found[:1], texts, before) == accepted | {"2": found[1].goal_digest}
 
 
 def test_a_verdict_says_so_until_its_goal_is_another_one(paper):
@@ -97,6 +102,9 @@ def test_what_was_noted_is_not_run_again_and_stays_noted(paper, tmp_path, monkey
         outcomes = [row.outcome for row in coqc.check_folder(out, 1, 5, noted=noted)]
         assert (len(ran), outcomes) == (again, ["noted" if again == 1 else "refused", "refused"])
         assert len(accepted_goals(coqc.check_folder(out, 1, 5, noted=noted), exported_texts(paper))) == 2 - again
+        ran.clear()
+        outcomes = [row.outcome for row in coqc.check_folder(out, 1, 5, only=["doe2031:2"])]
+        assert (len(ran), outcomes) == (1, ["left out", "refused"])
 
 
 def test_what_is_new_is_said_by_a_record(tmp_path):

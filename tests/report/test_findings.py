@@ -181,6 +181,10 @@ def test_places_of_one_kind_stand_together():
     titles = {"41.a": "the rates", "gamma.b": "p is positive", "45": "V decreases"}
     assert places_of(["41.a", "45", "gamma.b"], titles) == [
         "equations (41) “the rates” and (45)", "the statement “p is positive”"]
+    titles = {"text.a": "one", "text.b": "two", "figures.c": "three", "figures.d": "four"}
+    assert places_of([*titles, "figures"], titles) == ["the text “one” and “two”", "the figures"]
+    assert places_of(["figures.c", "figures.d"], titles) == ["the figures “three” and “four”"]
+    titles = {"41.a": "the rates", "gamma.b": "p is positive", "45": "V decreases"}
     # Where the whole line fails, so does its part, which is not told again.
     assert places_of(["41", "41.a"], titles) == ["equation (41)"]
 

@@ -19,8 +19,8 @@ def command(folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="What 
                 metavar="PAPER", help="Also note in this paper's folder which of its certificates the kernel has "
                                       "accepted (kernel.txt): their verdicts then say so.")] = None,
             only_new: Annotated[bool, typer.Option(
-                "--only-new", help="With --record: leave out the goals that it has already, of the same version of Coq."
-            )] = False,
+                "--only-new", help="With --record: leave out the goals that it has already, of the same version of "
+                                   "Coq, and what is no line of the paper, such as certificates of gains.")] = False,
             seconds: Annotated[float, typer.Option(
                 metavar="S", min=1, max=86_400, help="Seconds of processor time for one file.")] = 120) -> None:
     """Run coqc on every file that export-coq wrote; exit 0 when the kernel accepts all of them, 1 when it refuses one.
@@ -38,16 +38,17 @@ def command(folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="What 
     check_outputs({"--json": json, "--record": None if paper is None else record_path(paper)})
     if only_new and paper is None:
         raise InputError("", "--only-new", "goes with --record PAPER, whose record says what is not new")
-    noted = noted_before(paper, texts) if only_new and paper is not None else set()
+    noted = set() if paper is None else noted_before(paper, texts)
     with progress() as show:
         rows = list(check_folder(folder, workers or os.cpu_count() or 1, seconds,
-                                 lambda done, total: show("coqc", done, total), noted))
+                                 lambda done, total: show("coqc", done, total), noted if only_new else (),
+                                 texts if only_new else None))
     count = {name: sum(row.outcome == name for row in rows)
-             for name in ("accepted", "noted", "refused", "not exported")}
+             for name in ("accepted", "noted", "refused", "not exported", "left out")}
     for row in rows:
         if row.reason:
             err_console.print(f"{row.claim}: {row.outcome}: {row.reason}", soft_wrap=True, markup=False)
-    before = f", {count['noted']} noted before" if only_new else ""
+    before = f", {count['noted']} noted before, {count['left out']} left out" if only_new else ""
     out_console.print(f"{count['accepted']} of {len(rows)} certificates accepted by Coq's kernel{before}, "
                       f"{count['refused']} refused, {count['not exported']} not exported; coqc took "
                       f"{cpu_seconds():.0f} s of processor time", soft_wrap=True)
@@ -56,7 +57,7 @@ def command(folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="What 
             {"claim": row.claim, "outcome": row.outcome, "reason": row.reason, "goal_digest": row.goal_digest,
              "certificate": row.certificate} for row in rows]})
     if paper is not None:
-        accepted = accepted_goals(rows, texts)
+        accepted = accepted_goals(rows, texts, noted)
         write_record(paper, version(), accepted)
         out_console.print(f"{len(accepted)} noted in {record_path(paper)}", soft_wrap=True, markup=False)
     if count["refused"]:

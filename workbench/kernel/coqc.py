@@ -39,8 +39,8 @@ REMEDY = "on Debian or Ubuntu: apt install coq libcoq-interval libcoq-coquelicot
 
 @dataclass(frozen=True)
 class Checked:
-    """One certificate: 'accepted', 'refused' (with what coqc says), 'not exported' (with the reason), or 'noted', which
-    was accepted before."""
+    """One certificate: 'accepted', 'refused' (with what coqc says), 'not exported' (with the reason), 'left out', or
+    'noted', which was accepted before."""
 
     claim: str
     outcome: str
@@ -69,12 +69,13 @@ def missing() -> str | None:
 
 def check_folder(folder: Path, workers: int, seconds: float,
                  on_progress: Callable[[int, int], None] = lambda done, total: None,
-                 noted: Collection[tuple[str, str]] = ()) -> Iterator[Checked]:
+                 noted: Collection[tuple[str, str]] = (), only: Collection[str] | None = None) -> Iterator[Checked]:
     """Every certificate of a folder that `export-coq` wrote, as coqc finds it; InputError where Coq is missing, the
     library is not this package's, or the folder is none of exports. A file may take `seconds` of processor time.
 
-    noted: (claim, goal digest) of what is not run again. Many files are shown to coqc in one run; where it refuses
-    that, to smaller ones, so that a file is refused by what coqc says of it alone.
+    noted: (claim, goal digest) of what is not run again; only: the claims beside which all others are left out. Many
+    files are shown to coqc in one run; where it refuses that, to smaller ones, so that a file is refused by what coqc
+    says of it alone.
     """
     if (trouble := missing()) is not None:
         raise InputError("", "", trouble)
@@ -84,7 +85,8 @@ def check_folder(folder: Path, workers: int, seconds: float,
             raise InputError(str(folder / name), "", "is not this package's library: run 'workbench export-coq' again")
     # The file of a whole theorem is that of its claim: one run answers for both.
     files = dict.fromkeys((row["file"], row["sha256"]) for row in rows
-                          if "file" in row and (row["claim"], row["goal_digest"]) not in noted)
+                          if "file" in row and (row["claim"], row["goal_digest"]) not in noted
+                          and (only is None or row["claim"] in only))
     # Elsewhere, because Coq would take a compiled module, or a program, that lies beside a file for one of its own.
     with scratch_folder() as place:
         compile_library(place, seconds)
@@ -103,7 +105,7 @@ def check_folder(folder: Path, workers: int, seconds: float,
 
             for done, row in enumerate(rows):
                 on_progress(done, len(rows))
-                yield _checked(row, trouble_of)
+                yield _checked(row, trouble_of, only is None or row["claim"] in only)
     on_progress(len(rows), len(rows))
 
 
@@ -135,12 +137,14 @@ def cpu_seconds() -> float:
     return spent.ru_utime + spent.ru_stime
 
 
-def _checked(row: dict[str, Any], trouble_of: Callable[[tuple[str, str]], str | None]) -> Checked:
+def _checked(row: dict[str, Any], trouble_of: Callable[[tuple[str, str]], str | None], is_asked: bool) -> Checked:
     """What became of a row of the index, given what is wrong with a file, None of one that was not run."""
     known = {"claim": row["claim"], "goal_digest": row["goal_digest"], "certificate": row["certificate"],
              "motion": row["motion"]}
     if "not_exported" in row:
         return Checked(outcome="not exported", reason=row["not_exported"], **known)
+    if not is_asked:
+        return Checked(outcome="left out", **known)
     trouble = trouble_of((row["file"], row["sha256"]))
     if trouble is None:
         return Checked(outcome="noted", text=row["sha256"], **known)

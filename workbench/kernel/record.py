@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 
 from workbench.errors import InputError
@@ -21,11 +21,18 @@ def exported_texts(paper: Path) -> dict[str, str]:
     return {one.claim: sha256(one.text) for one in export_folder(folder) if one.text is not None}
 
 
-def accepted_goals(rows: Iterable[Checked], texts: Mapping[str, str]) -> dict[str, str]:
+def accepted_goals(rows: Iterable[Checked], texts: Mapping[str, str],
+                   noted: Collection[tuple[str, str]] = ()) -> dict[str, str]:
     """By equation the goal's digest of every certificate of the paper that was accepted, now or before: a file that is
-    another one than its certificate gives now says nothing of it."""
-    return {row.claim.partition(":")[2]: row.goal_digest for row in rows
-            if row.outcome in ("accepted", "noted") and row.text and texts.get(row.claim) == row.text}
+    another one than its certificate gives now says nothing of it.
+
+    noted: as `noted_before` says; of claims of which no row tells it stays noted.
+    """
+    rows = list(rows)
+    told = {row.claim for row in rows}
+    accepted = {claim.partition(":")[2]: digest for claim, digest in noted if claim not in told}
+    return accepted | {row.claim.partition(":")[2]: row.goal_digest for row in rows
+                       if row.outcome in ("accepted", "noted") and row.text and texts.get(row.claim) == row.text}
 
 
 def noted_before(paper: Path, texts: Mapping[str, str]) -> set[tuple[str, str]]:

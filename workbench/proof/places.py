@@ -11,12 +11,13 @@ _WORDS = {"theorem": "Theorem", "lemma": "Lemma", "remark": "Remark", "table": "
           "proposition": "Proposition", "contribution": "Contribution", "section": "Section", "A": "Assumption",
           "assumption": "Assumption", "corollary": "Corollary", "property": "Property", "algorithm": "Algorithm"}
 # Places that a paper has without a number.
-_UNNUMBERED = {"intro": "Introduction", "text": "The text", "figures": "Figures", "tables": "Tables"} | {
+_UNNUMBERED = {"intro": "Introduction", "text": "The text", "figures": "The figures", "tables": "The tables"} | {
     word.lower(): word for word in ("Abstract", "Objective", "Conclusion", "Example", "Notation", *_WORDS.values())}
 STATEMENT = "Statement"  # of a line that has no number in its paper
 _TOLD = f"The {STATEMENT.lower()} "
 _PLACED = re.compile(rf"(?:{'|'.join(_WORDS.values())}) \d+[^:]*: |The (?:display|text) (?:before|after) \(\d+\): ")
 _BESIDE = re.compile(r"The (?:display|text) (?:before|after) \(\d+\)(?=: )")  # what the paper does not number
+_KIND = re.compile(r"The \w+|\w+")  # what numbers stand behind
 _NAMED = re.compile(r"([A-Za-z]+?)(\d+)((?:\.\w+)*)")
 _NUMBERED = re.compile(r"(\d+)((?:\.\w+)*)")
 _SECTION = re.compile(r"section(\d+)(?![\w-])")
@@ -87,14 +88,16 @@ def places_of(equations: Sequence[str], titles: Mapping[str, str] | None = None)
         beside = _BESIDE.match(named.get(equation, ""))
         if titles is None or (in_whole and not beside):
             place = whole
-        kind = place if beside else _TOLD if place.startswith(_TOLD) else f"{place.partition(' ')[0]} "
+        kind = place if beside else f"{(_KIND.match(place) or [place])[0]} "
         number = place.removeprefix(kind.rstrip()).lstrip()
         if number not in groups.setdefault(kind, []):
             groups[kind].append(number)
     found = []
     for kind, members in groups.items():
         numbers = _in_order(members)
-        plural = kind.strip() + ("s" if len(numbers) > 1 else "")
+        # Several parts of the one introduction or of the figures are no more than that.
+        is_many = len(numbers) > 1 and (kind == _TOLD or not numbers[0].startswith("“"))
+        plural = kind.strip() + ("s" if is_many else "")
         if kind.startswith(("Equation ", "The ")):
             plural = plural[0].lower() + plural[1:]
         found.append(f"{plural} {listed(numbers)}".strip())

@@ -31,7 +31,7 @@ _STARRED = re.compile(r"(?<![\w$\\{*])([A-Za-z])\*(?![\w*])")
 _DERIVED = re.compile(r"(?<![\w$\\{'])([A-Za-z])'(?!\w)")
 _UNIT = re.compile(r"(?<![\w$/])(k?N|m)/(s|m)\^2(?!\w)")
 # A letter or number above the bar of a quotient at the end of words, and one below it at their beginning.
-_ABOVE = re.compile(r"(?<![\w.'^/)\]])([A-Za-z]|\d+)/$")
+_ABOVE = re.compile(r"(?<![\w.,'^/)\]])([A-Za-z]|\d+)/$")
 _BELOW = re.compile(r"/([A-Za-z]|\d+)(?![\w.'^/(]|-\w)")
 # What a formula is raised to, or its prime, behind it.
 _BEHIND = re.compile(r"\$([^$]*[^$^{}]|[^$]*\})\$(?:\$\{\}(\^\{[^$]*\})\$|('+)(?!\w))")
