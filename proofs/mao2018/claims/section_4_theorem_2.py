@@ -63,7 +63,8 @@ from ..steady_state_error import LAWS, STEADY_STATE_ERROR, epsilon, steady_state
 from .section_3_signals import C_max, P_max, Phi_max, R_max, S_max, W_max, w_i
 
 REPAIR = ("Repaired: (44) with a plus; in V_2 the weight m_i k_nu for rho_knu and rho_i, and no sum over the modes "
-          "for rho_knu and xi, which takes one mass in all modes. Unequal masses with infinitely many switches stay open. ")
+          "for rho_knu and xi, which takes one mass in all modes. Where the mass changes finitely often, as at stations, the same holds "
+          "from the last change on (46.mass); a mass that changes for ever stays open. ")
 ONE_MASS = r",\ m_1 = \dots = m_l\text{, from } T_{\bar M} \text{ on, the last failure or change of its constants, time zero being then}"
 BOUNDED = (r"\text{: }\lim_{t\to\infty} e(t) = 0\text{, and}\ z_1, z_2\ \text{and all estimates are bounded; all signals are, if}\ "
            r"x_m, \dot x_m, \ddot x_m\ \text{and all}\ f_{j\rho}\ \text{are}")
@@ -172,6 +173,18 @@ def finite_jump() -> Goal:
     return Goal((at_most(after, 2 * before + over_basis(weight**2 * jump**2)),))
 
 
+errors, mass_before, mass_after = sp.Symbol("E_m", nonnegative=True), *sp.symbols("m_before m_after", positive=True)
+
+
+@paper.claim("46.mass", "A change of the mass raises V_2 by a finite factor", "inequality",
+             r"V_2(T^+) \le \left(1 + \tfrac{m^+}{m^-}\right)V_2(T^-)", "proved", origin="ours",
+             note="The weights of the errors of rho_knu and xi hold the mass of the active mode, all others that of their own mode.")
+def finite_factor() -> Goal:
+    """What the mass multiplies, and the rest of V_2."""
+    before, after = (V_rest + mass * errors for mass in (mass_before, mass_after))
+    return Goal((at_most(after, (1 + mass_after / mass_before) * before),))
+
+
 @paper.claim("47", "V_2 does not increase after the last failure", "inequality", BOUND + r" \leq 0", "refuted",
              premises=("39", "25.idle"), rests_on=("46",), scope=ALL_SIGNALS, where={"V_2": V_40}, closed_loop=True,
              note="(45) again, and false with it; mended as 45.mended.")
@@ -205,7 +218,8 @@ def _signal(pushed: sp.Expr, most: sp.Expr, *given: Relation) -> Goal:
 @paper.claim("47.signal", "The text after (47): nu_0 is bounded", "implication",
              r"\text{Then, with the failure compensation controller (42), the boundedness of } \nu_0(t) \text{ is ensured}", "gap",
              match="words", rests_on=(), scope=ALL_SIGNALS,
-             reading="The bound of 47.signal.mended for one basis signal of which nothing is known.",
+             reading="The bound of 47.signal.mended for one basis signal of which nothing is known: Phi bounds varpi^T varpi there and is any "
+                     "number here.",
              note="It takes bounded basis signals f_jrho, which neither (11) nor (A1) asks for: a failed motor with f = e^t has to be "
                   "outweighed by nu_0. It takes a bounded x_m'' as well (theorem1.F). Sections V and VI say the same of (48).")
 def signal_bounded() -> Goal:
