@@ -173,7 +173,8 @@ def finite_jump() -> Goal:
     return Goal((at_most(after, 2 * before + over_basis(weight**2 * jump**2)),))
 
 
-errors, mass_before, mass_after = sp.Symbol("E_m", nonnegative=True), *sp.symbols("m_before m_after", positive=True)
+errors = sp.Symbol("E_m", nonnegative=True)
+mass_before, mass_after = sp.symbols("m_before m_after", positive=True)
 
 
 @paper.claim("46.mass", "A change of the mass raises V_2 by a finite factor", "inequality",
