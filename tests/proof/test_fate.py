@@ -101,6 +101,11 @@ def test_a_line_with_an_unclear_glyph_taints_and_costs_a_theorem_nothing_where_i
     rows = (decided("T", "refuted", severity="result", glyph="T.glyph"),
             decided("T.glyph", "proved", origin="ours", glyph="T"))
     assert fate(*rows).word == "open"
+    gap = decided("T", "gap", severity="result", glyph="T.glyph")
+    mended = decided("T.mended", "proved", origin="ours", mends="T")
+    found = fate(gap, rows[1], mended)
+    assert found.word == "stands with corrections"
+    assert found.why.startswith("follows in another reading of the extracted text alone; it holds in a mended form")
 
 
 def test_a_cosmetic_slip_taints_nothing():

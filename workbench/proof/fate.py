@@ -89,6 +89,8 @@ def _shortfall(decision: Decision, unshown: tuple[str, ...], by_id: Mapping[str,
         one = len(unshown) == 1
         return (f"is proved only where {_named(unshown, by_id)} {'holds' if one else 'hold'}, which "
                 f"{'is' if one else 'are'} not shown")
+    if decision.verdict == "gap" and holds_in_other_reading(decision, by_id):
+        return "follows in another reading of the extracted text alone"
     return {"gap": "does not follow as printed", "violated": "does not hold at the printed numbers",
             "assumed": "is taken as given, its proof was not checked", "undecided": "is not decided"}[decision.verdict]
 

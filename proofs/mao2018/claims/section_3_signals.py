@@ -59,7 +59,8 @@ def _quiet(goal: Goal) -> Goal:
              reading="The bound of theorem1.F.mended, with one of x_m' instead of x_m''.",
              note="(35) holds eta of (32), and this x_m'', of which no assumption says that it is bounded. It does not follow from a "
                   "bounded x_m': with x_m' = sin(t^2), exact estimates, no disturbance and a start on the curve the train stays on "
-                  "it, and m F = 2 t cos(t^2) + a + b x_2 + c x_2^2 + ...")
+                  "it, and m F = 2 t cos(t^2) + a + b x_2 + c x_2^2 + ... Where the sentence after Theorem 1 has x_m'' for x_m' "
+                  "(theorem1.alpha), the paper supposes that bound there, after the theorem; it should be an assumption of it.")
 def control_bounded() -> Goal:
     """With x_m' bounded alone."""
     force = nu_read * chi_d + rho_hat * wanted_one

@@ -137,11 +137,13 @@ def z2_closed() -> Goal:
     return Goal((equal(D(z_2), stated),), flow=healthy_loop)
 
 
-@paper.claim("theorem1.z2", "The rate of z_2 is bounded", "implication",
-             r"\text{According to (24), } \dot{z}_2(t) \text{ is bounded. It shows that } \lim_{t\to\infty} z_2(t) = 0",
-             "gap", rests_on=("24", "theorem1.bounded", "theorem1.F", "theorem1.alpha"), match="words", scope=ACTIVE_MODE,
-             reading="The bound of theorem1.z2.mended, with one of x_m' instead of x_m''. e is the sum of the errors of a, ..., D.",
-             note="It takes a bounded x_m'' too. With z_2 square integrable, Barbalat's lemma then gives z_2 -> 0 as the paper says.")
+RATE_OF_Z_2 = r"\text{According to (24), } \dot{z}_2(t) \text{ is bounded. It shows that } \lim_{t\to\infty} z_2(t) = 0"
+
+
+@paper.claim("theorem1.z2", "The rate of z_2 is bounded", "implication", RATE_OF_Z_2, "gap", glyph="theorem1.z2.dots",
+             rests_on=("24", "theorem1.bounded", "theorem1.F", "theorem1.alpha"), match="words", scope=ACTIVE_MODE, reading="The bound of theorem1.z2.mended, with one of x_m' instead of x_m''. e is the sum of the errors of a, ..., D.",
+             note="It takes a bounded x_m'', which the sentence before names in the other reading of it (theorem1.alpha). With z_2 square "
+                  "integrable, Barbalat's lemma then gives z_2 -> 0 as the paper says.")
 def z2_rate() -> Goal:
     """With x_m' bounded alone."""
     return rate_of_z_2_open()
@@ -157,13 +159,24 @@ def z2_rate_mended() -> Goal:
     return rate_of_z_2(w_i, W_max, at_most(w_i**2, W_max))
 
 
+@paper.claim("theorem1.z2.dots", "The rate of z_2 is bounded, the sentence before naming a bounded x_m''", "implication", RATE_OF_Z_2,
+             "proved", premises=("theorem1.z2.loop", "35.zeta", "35.wanted"), origin="ours", glyph="theorem1.z2", scope=ACTIVE_MODE,
+             note="The same as theorem1.z2.mended.")
+def z2_rate_dots() -> Goal:
+    """Six terms, each bounded."""
+    return z2_rate_mended()
+
+
 SPEED = "Decided as a bound: (x_2 - x_m')^2 is at most 2 z_2^2 + 2 r_1^2 z_1^2, and both errors tend to zero."
 
 
-@paper.claim("theorem1.speed", "The speed tracks too", "limit",
-             r"\lim_{t\to\infty} x_2(t) - \dot{x}_m(t) = 0", "gap", rests_on=("theorem1.integral", "theorem1.rate", "theorem1.z2"),
+LIMIT_OF_SPEED = r"\lim_{t\to\infty} x_2(t) - \dot{x}_m(t) = 0"
+
+
+@paper.claim("theorem1.speed", "The speed tracks too", "limit", LIMIT_OF_SPEED, "gap", glyph="theorem1.speed.dots",
+             rests_on=("theorem1.integral", "theorem1.rate", "theorem1.z2"),
              severity="result", reading="Decided of the bounded rate of z_2 that the limit of z_2 needs, as theorem1.z2 is.",
-             note="It takes a bounded x_m''.")
+             note="It takes a bounded x_m'', as theorem1.z2 does, which the text names in the other reading of theorem1.alpha.")
 def speed_tracks() -> Goal:
     """With x_m' bounded alone."""
     return rate_of_z_2_open()
@@ -178,3 +191,11 @@ def speed_tracks_mended() -> Goal:
     difference = x_2 - xdot_m
     inside = (equal(z_1, x_1 - x_m), equal(z_2, x_2 - alpha_1))
     return Goal((at_most(difference**2, 2 * z_2**2 + 2 * r_1**2 * z_1**2),), inside)
+
+
+@paper.claim("theorem1.speed.dots", "The speed tracks too, the text naming bounded x_m' and x_m''", "limit", LIMIT_OF_SPEED, "proved",
+             origin="ours", premises=("theorem1.integral", "theorem1.bounded", "theorem1.z2.dots", "barbalat"), glyph="theorem1.speed",
+             reading=SPEED)
+def speed_tracks_dots() -> Goal:
+    """The same."""
+    return speed_tracks_mended()

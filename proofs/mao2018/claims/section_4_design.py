@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, greater, less
+from workbench.proof.claim import D, Goal, Relation, at_least, at_most, differ, equal, greater, less
 
 from ..active_mode import (
     Gamma_k,
@@ -97,12 +97,12 @@ T_p, T_next, T_q, T_later = sp.symbols("T_p T_p1 T_q T_q1", nonnegative=True)
 @paper.claim("40.order", "The text after (40): A mode switches between two failures", "implication",
              r"\text{Without loss of generality, we assume that } T_p \in (T_q, T_{q+1}) \text{ and } T_{p+1} > T_{q+1}",
              "gap", match="words", severity="cosmetic",
-             reading="Failures at T_p < T_{p+1}, the first of them between the switches T_q and T_{q+1}.",
+             reading="Failures at T_p < T_{p+1}, the first between the switches T_q and T_{q+1}, neither at one of them.",
              note="Two failures may fall between two switches of the mode. Nothing depends on it: V_2 jumps by a finite "
                   "amount at each failure (46.jump).")
 def order_of_instants() -> Goal:
     """Both failures before the next switch."""
-    return Goal((greater(T_next, T_later),), (less(T_q, T_p), less(T_p, T_later), less(T_p, T_next)))
+    return Goal((greater(T_next, T_later),), (less(T_q, T_p), less(T_p, T_later), less(T_p, T_next), differ(T_next, T_later)))
 
 
 xi_rate, varpi_one = sp.symbols("xi_hat_rate varpi_one", real=True)

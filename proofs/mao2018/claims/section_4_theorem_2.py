@@ -59,12 +59,13 @@ from ..modes import (
 )
 from ..paper import paper
 from ..plant import s, z_1, z_2
-from ..steady_state_error import STEADY_STATE_ERROR, epsilon, steady_state_error
+from ..steady_state_error import LAWS, STEADY_STATE_ERROR, epsilon, steady_state_error
 from .section_3_signals import C_max, P_max, Phi_max, R_max, S_max, W_max, w_i
 
 REPAIR = ("Repaired: (44) with a plus; in V_2 the weight m_i k_nu for rho_knu and rho_i, and no sum over the modes "
-          "for rho_knu and xi, which takes one mass in all modes. Unequal masses with infinitely many switches stay open. ")
-ONE_MASS = r",\ m_1 = \dots = m_l\text{, from the last failure on, time zero being then}"
+          "for rho_knu and xi, which takes one mass in all modes. Where the mass changes finitely often, as at stations, the same holds "
+          "from the last change on (46.mass); a mass that changes for ever stays open. ")
+ONE_MASS = r",\ m_1 = \dots = m_l\text{, from } T_{\bar M} \text{ on, the last failure or change of its constants, time zero being then}"
 BOUNDED = (r"\text{: }\lim_{t\to\infty} e(t) = 0\text{, and}\ z_1, z_2\ \text{and all estimates are bounded; all signals are, if}\ "
            r"x_m, \dot x_m, \ddot x_m\ \text{and all}\ f_{j\rho}\ \text{are}")
 
@@ -172,6 +173,19 @@ def finite_jump() -> Goal:
     return Goal((at_most(after, 2 * before + over_basis(weight**2 * jump**2)),))
 
 
+errors = sp.Symbol("E_m", nonnegative=True)
+mass_before, mass_after = sp.symbols("m_before m_after", positive=True)
+
+
+@paper.claim("46.mass", "A change of the mass raises V_2 by a finite factor", "inequality",
+             r"V_2(T^+) \le \left(1 + \tfrac{m^+}{m^-}\right)V_2(T^-)", "proved", origin="ours",
+             note="The weights of the errors of rho_knu and xi hold the mass of the active mode, all others that of their own mode.")
+def finite_factor() -> Goal:
+    """What the mass multiplies, and the rest of V_2."""
+    before, after = (V_rest + mass * errors for mass in (mass_before, mass_after))
+    return Goal((at_most(after, (1 + mass_after / mass_before) * before),))
+
+
 @paper.claim("47", "V_2 does not increase after the last failure", "inequality", BOUND + r" \leq 0", "refuted",
              premises=("39", "25.idle"), rests_on=("46",), scope=ALL_SIGNALS, where={"V_2": V_40}, closed_loop=True,
              note="(45) again, and false with it; mended as 45.mended.")
@@ -181,7 +195,7 @@ def v2_bound_after() -> Goal:
     return Goal((*goal.show, at_most(decay, 0)), goal.assume, goal.flow)
 
 
-@paper.claim("47.finite", "From (47) the errors are square integrable", "implication",
+@paper.claim("47.finite", "Where (47) holds, the errors are square integrable", "implication",
              r"\text{it follows that all the variables}\ldots\text{are bounded}\ldots (47) \text{ implies } z_1(t) \in L_2 "
              r"\text{ and so } \lim_{t\to\infty} z_1(t) = 0", "proved", match="words",
              premises=("40", "46.jump", "25.switch", "filippov"), rests_on=("47", "46.jump"), scope=ALL_SIGNALS,
@@ -205,7 +219,8 @@ def _signal(pushed: sp.Expr, most: sp.Expr, *given: Relation) -> Goal:
 @paper.claim("47.signal", "The text after (47): nu_0 is bounded", "implication",
              r"\text{Then, with the failure compensation controller (42), the boundedness of } \nu_0(t) \text{ is ensured}", "gap",
              match="words", rests_on=(), scope=ALL_SIGNALS,
-             reading="The bound of 47.signal.mended for one basis signal of which nothing is known.",
+             reading="The bound of 47.signal.mended for one basis signal of which nothing is known: Phi bounds varpi^T varpi there and is any "
+                     "number here.",
              note="It takes bounded basis signals f_jrho, which neither (11) nor (A1) asks for: a failed motor with f = e^t has to be "
                   "outweighed by nu_0. It takes a bounded x_m'' as well (theorem1.F). Sections V and VI say the same of (48).")
 def signal_bounded() -> Goal:
@@ -237,7 +252,7 @@ THEOREM = (r"\text{The adaptive failure compensation controller %s applied to th
            r"closed-loop signals are bounded and the tracking error } e(t) = x_1(t) - x_m(t) \text{ satisfies } "
            r"\lim_{t\to\infty} e(t) = 0")
 SQUARE_IN_TIME = "The printed closed loop has a motion along which z_1^2 stays at 1: e(t) does not tend to zero. "
-TRACKS = ("Shown for all times after the last failure, from which time counts: V_2, and so every estimation error, z_1, z_2 and "
+TRACKS = ("Shown for all times after the last failure or change of its constants, from which time counts: V_2, and so every estimation error, z_1, z_2 and "
           "the integral of r_1 z_1^2 + r_2 z_2^2, are at most what V_2 after it allows; V_2 has no jump at a switch, since "
           "estimates and parameters have none (25.switch). The limit is Barbalat's lemma, as for Theorem 1, and takes no bound "
           "of the desired curve. Of all other signals nu_0 is bounded by 47.signal.mended, x_2 by theorem1.bounded. ")
@@ -248,8 +263,11 @@ TRACKS = ("Shown for all times after the last failure, from which time counts: V
                         "(7)-(8) with actuator failures (13)-(15)", "the "), "refuted",
              match="words", severity="result", closed_loop=True, rests_on=("47", "47.finite", "47.signal", "43"), scope=ALL_SIGNALS,
              reading=SQUARE_IN_TIME + "Decided as z_1^2 <= 1/4 from some time on.",
-             note="False as printed: " + STEADY_STATE_ERROR + "The cause is the sign of (44): with a plus there it holds as "
-                  "theorem2.mended states, with one mass in all modes, as in section VIII. The theorem's list of what is applied leaves out (43).")
+             note="False as printed: " + STEADY_STATE_ERROR % LAWS + "Lengths are in m, times in s, and the train's mass is the unit of mass. It is "
+                  "no exception: in 24 runs of this loop, integrated and not certified, that start 0.01 off it in every state the error stays "
+                  "within 0.04 of 1 for 40 s; along the motion of theorem2.speed it grows without end. The cause is the sign of (44): with a "
+                  "plus there it holds as theorem2.mended states, with one mass in all modes, as in section VIII. The theorem's list of what is "
+                  "applied leaves out (43).")
 def theorem_2() -> Goal:
     """The printed closed loop, with a motion along which z_1 = 1."""
     return steady_state_error(at_most(z_1**2, epsilon), nu_failed, {epsilon: sp.Rational(1, 4), lambda_0: sp.Integer(1)},

@@ -28,7 +28,7 @@ from ..lyapunov import V_40, V_true, decay, tracks
 from ..modes import EVERY_MODE, p_hat
 from ..paper import paper
 from ..plant import s, z_1, z_2
-from ..steady_state_error import STEADY_STATE_ERROR, epsilon, steady_state_error
+from ..steady_state_error import LAWS, STEADY_STATE_ERROR, epsilon, steady_state_error
 from .section_4_design import LEFT, NU_0, OUTWEIGHED, SIGNAL, left_by, outweighed
 from .section_4_theorem_2 import ALONE_44, BOUND, BOUNDED, MENDED_45, ONE_MASS, REPAIR, SQUARE_IN_TIME, THEOREM, TRACKS
 
@@ -201,7 +201,7 @@ def rate_52_at_most() -> Goal:
                         "(7)-(8) under actuator failures (16)", "the "), "refuted",
              match="words", severity="result", closed_loop=True, rests_on=("52", "47.signal", "48.pattern", "49", "50"), scope=ALL_SIGNALS,
              reading=SQUARE_IN_TIME + "Decided as z_1^2 <= 1/4 from some time on.",
-             note="False as printed: " + STEADY_STATE_ERROR + "The bound delta_j^0 is 1, delta_j is 0. With a plus in (44) "
+             note="False as printed: " + STEADY_STATE_ERROR % LAWS + "The bound delta_j^0 is 1, delta_j is 0. With a plus in (44) "
                   "it holds as theorem3.mended states.")
 def theorem_3() -> Goal:
     """The printed closed loop, with a motion along which z_1 = 1."""

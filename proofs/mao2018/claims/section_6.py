@@ -38,7 +38,7 @@ from ..lyapunov import V_40, V_53, decay, tracks
 from ..modes import EVERY_MODE, p_hat
 from ..paper import paper
 from ..plant import s, t, z_1, z_2
-from ..steady_state_error import STEADY_STATE_ERROR, epsilon, steady_state_error
+from ..steady_state_error import LAWS, STEADY_STATE_ERROR, epsilon, steady_state_error
 from .section_3_signals import rho_m
 from .section_4_design import LEFT, NU_0, OUTWEIGHED, SIGNAL, bounds_errors, left_by
 from .section_4_theorem_2 import ALONE_44, BOUND, BOUNDED, ONE_MASS, REPAIR, SQUARE_IN_TIME, THEOREM, TRACKS, WEIGHTS
@@ -233,7 +233,7 @@ def v2_bound_unknown_mended() -> Goal:
              match="words", severity="result", closed_loop=True, rests_on=("57", "47.signal"), scope=ALL_SIGNALS,
              reading=SQUARE_IN_TIME + "Decided as z_1^2 <= 1/4 from some time on. The bound in (56) is 1, which is one of m_i as well "
                                       "as one of m_i k_nu.",
-             note="False as printed: " + STEADY_STATE_ERROR + "lambda_hat falls from 1. With a plus in (54) Theorem 4 falls too "
+             note="False as printed: " + STEADY_STATE_ERROR % f"{LAWS}, (54)" + "lambda_hat falls from 1. With a plus in (54) Theorem 4 falls too "
                   "(theorem4.reading); with a plus in (44) and in (54) it holds as theorem4.mended states. The text before it "
                   "names (48) and (52) where (55) and (57) are meant.")
 def theorem_4() -> Goal:

@@ -35,11 +35,12 @@ from ..error_dynamics import (
     uncertain_train,
     within,
 )
+from ..growing_error import GROWING_ERROR, growing_error
 from ..leakage_proof import idle_mode, leakage_goals, rate_of_every_mode
 from ..lyapunov import V_0, V_40, J, V_t, V_true, constant, decay, w_t
 from ..paper import paper
 from ..plant import Delta_b, Delta_c, drag, r_1, r_2, t, x_2, z_1, z_2
-from ..steady_state_error import STEADY_STATE_ERROR, Xi_hat, epsilon, steady_state_error
+from ..steady_state_error import LAWS_VII, STEADY_STATE_ERROR, Xi_hat, epsilon, steady_state_error
 from .section_3_signals import B, X_max
 from .section_4_theorem_2 import ALONE_44, REPAIR, WEIGHTS
 from .section_7_design import LAW_61, printed_loop
@@ -103,7 +104,7 @@ K = sp.Symbol("K", positive=True)
 inequality_65 = at_most(w_t, decay + K)
 
 
-@paper.claim("65.negative", "V_2 falls outside a ball of z_1 and z_2", "implication",
+@paper.claim("65.negative", "Where (65) holds, V_2 falls outside a ball of z_1 and z_2", "implication",
              r"\text{Since } r_1 \text{ and } r_2 \text{ are positive constants, it is always true that } \dot{V}_2 "
              r"\text{ is negative outside some ball}", "proved", rests_on=("65",), match="words",
              reading="Where (65) holds with the constant K, and r_1 z_1^2 + r_2 z_2^2 > K.")
@@ -124,8 +125,8 @@ def errors_shrink() -> Goal:
                     rho_k_hat: sp.Rational(1, 15), **dict.fromkeys((x_2, Delta_b, Delta_c, failure, failure_hat), sp.Integer(0)),
                     **dict.fromkeys((k_1, k_2, b_0, c_0, *chis), sp.Integer(1))}
     flow = uncertain_train(rho_law_61_true)
-    return already(Goal((less(D(z_1**2 + z_2**2), 0),), (*filippov, greater(-decay, constant)),
-                        {z: flow[z] for z in (z_1, z_2)}), values)
+    rises = Goal((less(D(z_1**2 + z_2**2), 0),), (*filippov, greater(-decay, constant)), {z: flow[z] for z in (z_1, z_2)})
+    return at_instant(already(rises, values), {hats[0]: sp.Integer(-3), z_1: sp.Integer(0), z_2: sp.Integer(-1)})
 
 
 @paper.claim("65.bounded", "The text after (65): (65) makes the solution bounded", "limit",
@@ -147,6 +148,17 @@ damped_constants: Flow = {lambda_0: sp.Integer(1), b_0: sp.Integer(1), c_0: sp.I
                           Delta_b: sp.Integer(0), Delta_c: sp.Integer(0)}
 
 
+@paper.claim("65.errors", "The text after (65): The tracking errors are bounded", "limit",
+             r"\text{It can concluded that the distance and speed tracking errors are bounded}", "refuted", match="words", closed_loop=True,
+             rests_on=("65", "65.bounded"), scope=ALL_SIGNALS,
+             reading="Of the distance: decided as what a bounded z_1 would give, z_1^2 <= t from some time on.",
+             note="False as printed: " + GROWING_ERROR % LAWS_VII + "Delta_b = Delta_c = 0 and k_1 = k_2 = 7/25. It is "
+                  "the tracking error itself that is not bounded, while all that is given is.")
+def errors_grow() -> Goal:
+    """The printed closed loop, with a motion along which z_1 = 1 + t."""
+    return growing_error(at_most(z_1**2, t), nu_failed, damped_constants, *disturbed, *uncertain, damped=True, begins=1)
+
+
 @paper.claim("theorem5", "Theorem 5: all signals are bounded with nonlinear damping", "limit",
              r"\text{The adaptive failure compensation controller (60), with the adaptive scheme (27)-(33), (41), (43) and "
              r"(44) applied to the system (58)-(59) with actuator failures (13)-(15), guarantees that all the closed-loop "
@@ -154,9 +166,9 @@ damped_constants: Flow = {lambda_0: sp.Integer(1), b_0: sp.Integer(1), c_0: sp.I
              rests_on=("65", "65.bounded"), scope=ALL_SIGNALS,
              reading="Decided as what a bounded xi_hat^T varpi would give, (xi_hat^T varpi)^2 <= t from some time on. "
                      "(61) and (62) belong to the laws, which the theorem's list leaves out.",
-             note="False as printed: " + STEADY_STATE_ERROR + "Delta_b = Delta_c = 0, k_1 = k_2 = 1, and xi_hat grows without end. With a "
-                  "plus in (61) Theorem 5 falls too (theorem5.reading). With a plus in (44) and (61) as well (65) holds, but "
-                  "boundedness of the estimates still does not follow from it (65.bounded); with leakage it does.")
+             note="False as printed: " + STEADY_STATE_ERROR % LAWS_VII + "Delta_b = Delta_c = 0, k_1 = k_2 = 1, and xi_hat "
+                  "grows without end; along the motion of 65.errors the position error does so too. With a plus in (61) Theorem 5 falls "
+                  "too (theorem5.reading). With a plus in (44) and (61) as well (65) holds, but boundedness of the estimates still does not follow from it (65.bounded); with leakage it does.")
 def theorem_5() -> Goal:
     """The printed closed loop, with a motion along which xi_hat grows without end."""
     return _damped_loop(at_most(Xi_hat**2, t), 1, begins=1)
@@ -220,7 +232,7 @@ def damping_bounded() -> Goal:
 
 
 @paper.claim("theorem5.mended", "Theorem 5 with a plus in (44) and (61), leakage in the adaptive laws and one mass in all modes", "implication",
-             r"\text{From the last failure on, time zero being then, with}\ " + LEAKY + r"V_2(t) \le \tfrac{\Lambda}{\mu} + \left(V_2(0) - "
+             r"\text{From } T_{\bar M} \text{ on, the last failure or change of its constants, time zero being then, with}\ " + LEAKY + r"V_2(t) \le \tfrac{\Lambda}{\mu} + \left(V_2(0) - "
              r"\tfrac{\Lambda}{\mu}\right)e^{-\mu t},\ \mu = \min\{2r_1, 2r_2, \kappa\},\ \Lambda = \tfrac{b_0^2}{4k_1} + "
              r"\tfrac{c_0^2}{4k_2} + \kappa E_0,\ " + E_0 + r"\text{; all signals are bounded, if}\ x_m, \dot x_m, \ddot x_m\ \text{and all}\ f_{j\rho}\ "
              r"\text{are}", "proved", origin="ours", mends="theorem5",
@@ -262,7 +274,7 @@ def mean_square() -> Goal:
              r"\text{ and } k_2 > 0 \text{ are, the smaller the tracking errors } z_1 \text{ and } z_2 \text{ are}",
              "refuted", match="words", severity="result", closed_loop=True, rests_on=("65", "remark4.constant"),
              scope=ALL_SIGNALS, reading="Decided as z_1^2 <= 1/4 from some time on, at k_1 = k_2 = 1000.",
-             note="False as printed, shown for k_1 = k_2 = 1000: " + STEADY_STATE_ERROR + "With a plus in (61) Remark 4 falls too "
+             note="False as printed, shown for k_1 = k_2 = 1000: " + STEADY_STATE_ERROR % LAWS_VII + "With a plus in (61) Remark 4 falls too "
                   "(remark4.reading). Even with the laws repaired (65) bounds the errors in the mean only (remark4.mean), not at each "
                   "instant (65.ball).")
 def remark_4() -> Goal:

@@ -2,6 +2,7 @@
 
 import random
 from dataclasses import replace
+from fractions import Fraction
 
 import pytest
 from scenarios import PROOFS
@@ -134,6 +135,46 @@ def test_the_bounds_fail_where_the_weights_of_40_fit_and_44_alone_is_at_fault(cl
 def test_what_takes_a_bound_of_the_desired_curve_or_of_the_failures_does_not_follow(claims, line):
     assert decide(claims[line]).verdict == "gap"
     assert decide(claims[f"{line}.mended"]).verdict == "proved"
+
+
+@pytest.mark.parametrize("line", ["theorem1.alpha", "theorem1.z2", "theorem1.speed"])
+def test_what_takes_a_bounded_x_m_dot_dot_follows_where_the_sentence_after_theorem_1_has_two_dots(claims, line):
+    assert decide(claims[line]).verdict == "gap"
+    assert claims[line].glyph == f"mao2018:{line}.dots"
+    assert decide(claims[f"{line}.dots"]).verdict == "proved"
+
+
+@pytest.mark.parametrize("line, slope", [("theorem2.speed", "t"), ("theorem3.speed", "t"), ("65.errors", "1 + t")])
+def test_the_printed_loop_has_an_exact_motion_along_which_the_position_error_grows(claims, line, slope):
+    decision = decide(claims[line])
+    assert decision.verdict == "refuted" and decision.certificate["functions"]["z_1"] == slope
+    assert decision.certificate["point"]["xdot_m"] == "0" == decision.certificate["point"]["d_i"]
+
+
+@pytest.mark.parametrize("section", ["IV", "VII"])
+def test_that_motion_typed_anew_obeys_every_printed_law(section):
+    """Section IV: (27)-(31), (37), (41), (42)-(44); section VII: (60)-(62) besides, (61) instead of (37)."""
+    kappa, begins, b, p = (0, 1, Fraction(2, 3), 2) if section == "IV" else (
+        Fraction(14, 25), 2, Fraction(16, 25), Fraction(36, 25))
+    for t in (Fraction(0), Fraction(1, 3), Fraction(7, 2)):
+        u = t + begins  # z_2; its rate and that of z_1 = u - 1 are 1, so that x_2 = 1
+        f = 2 + b / u
+        push_hat = 8 * u**2 - b**2 + (u**2 + b * u) * f
+        rho, rho_k = p * u**3 / 3 + Fraction(5, 2) * u**4, -b * u**3 - Fraction(5, 2) * u**4
+        zeta = -10 * u**2  # 16 + 1 + 1 + 1 + 1 times -u^2/2
+        wanted, damping = zeta - ((u - 1) + 1) - u, -kappa * u
+        signal = -rho_k * push_hat - Fraction(1, 15) + rho * (wanted + damping)  # (42), (60)
+        assert 15 * signal + 1 + 1 == 1  # (39): z_2' = k_nu nu_0 + xi^T varpi + r_1 z_1'
+        assert p * u**2 + 10 * u**3 == -u * (wanted - damping)  # (37), (61)
+        assert -3 * b * u**2 - 10 * u**3 == -u * push_hat  # (44)
+        assert 2 * u + b == u * f  # (41), of f; of the 16 ones 16 u = 16 z_2
+        assert push_hat == 3 * b * u + 10 * u**2
+
+
+def test_theorems_2_and_3_do_not_let_the_speed_track_as_printed_and_do_as_mended(claims):
+    for line in ("theorem2.speed", "theorem3.speed"):
+        assert decide(claims[f"{line}.mended"]).verdict == "proved"
+    assert decide(claims["theorem2.z2.loop"]).verdict == decide(claims["theorem2.z2"]).verdict == "proved"
 
 
 @pytest.mark.parametrize("line", ["theorem4.reading", "theorem5.reading", "remark4.reading"])
