@@ -24,8 +24,9 @@ def what_holds(decisions: Sequence[Decision], numbers: Mapping[str, int]) -> lis
     proved = [d for d in decisions if d.claim.origin != "ours" and d.verdict == "proved" and not d.proved_under]
     through = [d for d in proved if not all(holds_in_other_reading(by_id[name], by_id) for name in d.tainted_by)]
     stands = [d for d in proved if d not in through and (d.fate is None or d.fate.word == "stands")]
+    behind = [d for d in through if not is_headline(d)]
     groups = {"What holds as it stands": stands,
-              "What holds, though the text comes to it through lines that fail": [d for d in through if not is_headline(d)]}
+              "What holds, though the text comes to it through lines that fail": behind}
     found: list[list[Block]] = [[Heading(2, heading), Items(_by_section(own))]
                                 for heading, own in groups.items() if own]
     if stands and found:
