@@ -98,8 +98,8 @@ ENERGY = (r"v_1 \ge 0,\ k_j = \tfrac{c_k}{m_j} \le k_{\max},\ d_j = \tfrac{c_d}{
                   "s and v as long as v_1 >= 0, which nothing in the paper ensures: added over the cars, the rate of |s|^2 + "
                   "|v|^2 is at most a constant plus a multiple of it, and Gronwall's inequality does the rest. Where v_1 < 0 the "
                   "aerodynamic force of (2) drives the train backwards: from rest with all brakes at 4e4 N, within the limits, "
-                  "v_1 of the train of Table 1 is unbounded before 440 s; the loop itself can do so, too (theorem1.1). With v_1 "
-                  "|v_1| in place of v_1^2 this ends.")
+                  "v_1 of the train of Table 1 is unbounded before 440 s; in a simulation the loop itself runs away, too (theorem1.1). "
+                  "With v_1 |v_1| in place of v_1^2 this ends.")
 def state_bounded() -> Goal:
     """The integral of e_s^2 from E_{i-1} <= E_1 and that of the saturation, both constants of (54) taken as 1."""
     always = (at_most(I_e, 1 + I_u), at_least(I_e, 0), at_least(I_u, 0))
