@@ -151,7 +151,7 @@ def saturated_learning() -> Goal:
                   "kN on motor cars and m c_0 on trailers, so that u_r is 39.9 kN and 0, at c_1 = 0.01, c_2 = 10, c_3 = 0.04, gamma_v = 0.125, gamma_a = "
                   "2.5e-4 and 100 for the others; it rolls back, at 26 m/s the aerodynamic force of (2) wins over "
                   "what the motors have left, and at 3617 s it is faster than 1e4 m/s: for longer T no motion exists on [0, T]. "
-                  "The values of the estimates, and of mu with them, are not bounded by "
+                  "At the gains of section IV it rolls back at 10 m/s and does not run away. The values of the estimates, and of mu with them, are not bounded by "
                   "their integrals; no motion is known in which they grow. A saturation in (17) to (21), as (22) has it, would "
                   "bound the estimates (theorem1.1.saturated).")
 def all_bounded() -> Goal:
