@@ -84,7 +84,7 @@ def test_brakes_drive_the_train_of_table_1_to_any_speed_backwards():
 
 
 def first_iteration_on_a_hill(c_2: float, gamma: dict[str, float]) -> tuple[np.ndarray, np.ndarray]:
-    """Times and v_1 by (1)-(3), (8)-(12), (16), (17)-(21) typed from the paper; the hill asks 39.9 kN of each motor car."""
+    """Times and v_1 by (1)-(3), (8)-(12), (16), (17)-(21) typed from the paper; a motor car needs 39.9 kN."""
     mass, c_0, c_v, c_a, c_k, c_d = 5e4, 7.75e-3, 2.28e-4, 1.66e-5, 2e6, 1e5
     c_1, c_3 = 0.01, 0.04
     chain = np.diag([1.0, 2, 2, 2, 2, 1]) - np.eye(6, k=1) - np.eye(6, k=-1)
