@@ -168,9 +168,9 @@ trailer_force = float(mass_stated * (table_1[c_0] + table_1[c_v] * cruise_stated
              note="One reference for all cars leaves the couplers without force, and a trailer has no traction. So it lacks "
                   f"{trailer_force:.0f} N at 83.5 m/s, and 15.4 kN where the train gains speed at 0.3 m/s^2 from low speed: "
                   "no law tracks exactly, unless a downhill grade supplies this force to each trailer (A2.trailer). Section "
-                  "IV says itself that couplers drag the trailers; then their places differ. What is missed is small: if "
-                  "the errors in m and in m/s stay below one number, it is at least 0.16 mm and mm/s on a long cruise, and 1.8 "
-                  "where the train gains speed for long (A2.floor). With every trailer 0.7 mm behind its motor car an input "
+                  "IV says itself that couplers drag the trailers; then their places differ. What is missed is small: for ten "
+                  "seconds of cruise the errors of place of a trailer and its neighbours cannot stay below 0.159 mm while their errors "
+                  "of speed stay below 0.159 mm/s, nor for ten seconds at 0.3 m/s^2 below 1.82 mm and 1.82 mm/s (A2.floor). With every trailer 0.7 mm behind its motor car an input "
                   "exists at cruise (A2.behind), 7.7 mm where the train gains speed from low speed; that is another reference. The "
                   "proof of Theorem 1 does not use Assumption 2.")
 def reference_can_be_tracked() -> Goal:
@@ -225,8 +225,8 @@ most_s, most_v = sp.symbols("epsilon_s epsilon_v", positive=True)  # m, m/s
              r"t[R - 4c_k\varepsilon_s - (k_v + 4c_d)\varepsilon_v],\ 0 < R \le m(\dot v_r + c_0 + c_vv_r) - f^a,\ k_v = mc_v",
              "proved", origin="ours", scope="an inner trailer, with coefficients that are constant for these t seconds",
              note="So no law makes the tracking errors of such a train converge to zero. At the stated numbers, on level "
-                  "track, R = 1339 N at cruise: for a long cruise 4 c_k epsilon_s + (k_v + 4 c_d) epsilon_v is at least "
-                  "that, 0.16 mm and 0.16 mm/s if both are the same number. What is impossible is zero, not good tracking.")
+                  "track, R = 1339 N at cruise: after ten seconds of it the errors of place or those of speed have reached 0.159 "
+                  "mm or 0.159 mm/s, one of the two is enough. What is impossible is zero, not good tracking.")
 def errors_have_a_floor() -> Goal:
     """m e_v + t times what is left of R does not increase while the errors are small; d = e_{j-1} - 2 e_j + e_{j+1}; u is the
     braking force less what the resistance is above R."""

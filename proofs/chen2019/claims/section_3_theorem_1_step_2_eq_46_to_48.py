@@ -60,9 +60,9 @@ def _limit(relation: Relation) -> Goal:
 @paper.claim("47", "The limit of (46)", "limit", rf"{LIM_E} = {RIGHT_47}", "gap", severity="cosmetic", premises=("46",),
              where=IN_47, correction=lambda: _limit(at_most(E_limit, right_47)),
              corrected_statement=rf"{LIM_E} \le {RIGHT_47}",
-             note="The limit of the inequality (46) is an inequality. By 46.kept the sum of all V_k(t) lies between the two "
-                  "sides, so the printed equality is false wherever some V_k(t) is positive; harmless, since (48) needs <= "
-                  "alone.")
+             note="The limit of the inequality (46) is an inequality. By 46.kept the right side exceeds the left one by at "
+                  "least the sum of all V_k(t), so the printed equality is false wherever some V_k(t) is positive; harmless, since "
+                  "(48) needs <= alone.")
 def cef_limit() -> Goal:
     """Equality of the limits from (46)."""
     return _limit(equal(E_limit, right_47))
@@ -112,8 +112,8 @@ I_z, z_end = sp.symbols("I_z z_end", real=True)  # of an iteration: the integral
 @paper.claim("55.pointwise", "The text after (55): (48) makes z_2 converge at every instant", "limit",
              r"\text{Hence, it can conclude that ... $z_{1,i}$ and $z_{2,i}$ are convergent along the iteration axis "
              r"pointwisely.}", "gap", premises=("48",), match="words",
-             reading="Of z_2: its integrals of (48) tend to zero, so z_{2,i}(t) tends to zero at every t. Of z_1 it is true, "
-                     "see 55.z_1.",
+             reading="Of z_2: its integrals of (48) tend to zero, so z_{2,i}(t) tends to zero at every t, here |z_{2,i}(1)|^2 is at most "
+                     "1/2 from some iteration on. Of z_1 it is true, see 55.z_1.",
              correction=_instants_converge,
              corrected_statement=r"\#\{k: V_k(t) \ge \delta\} \le \tfrac{E_1(t)}{\delta}\ \text{for every } t, \delta "
                                  r"> 0",

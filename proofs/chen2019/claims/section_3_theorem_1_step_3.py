@@ -98,7 +98,8 @@ ENERGY = (r"v_1 \ge 0,\ k_j = \tfrac{c_k}{m_j} \le k_{\max},\ d_j = \tfrac{c_d}{
                   "s and v as long as v_1 >= 0, which nothing in the paper ensures: added over the cars, the rate of |s|^2 + "
                   "|v|^2 is at most a constant plus a multiple of it, and Gronwall's inequality does the rest. Where v_1 < 0 the "
                   "aerodynamic force of (2) drives the train backwards: from rest with all brakes at 4e4 N, within the limits, "
-                  "v_1 of the train of Table 1 is unbounded before 440 s. With v_1 |v_1| in place of v_1^2 this ends.")
+                  "v_1 of the train of Table 1 is unbounded before 440 s; in a simulation the loop itself runs away, too (theorem1.1). "
+                  "With v_1 |v_1| in place of v_1^2 this ends.")
 def state_bounded() -> Goal:
     """The integral of e_s^2 from E_{i-1} <= E_1 and that of the saturation, both constants of (54) taken as 1."""
     always = (at_most(I_e, 1 + I_u), at_least(I_e, 0), at_least(I_u, 0))
@@ -145,7 +146,12 @@ def saturated_learning() -> Goal:
              reading="The values of all variables at an instant, for all iterations, by what the proof shows of them: "
                      "integrals of squares that are bounded.",
              note="What is shown is theorem1.1.mended, which is less; s, v and lambda are bounded as long as v_1 >= 0, which nothing in "
-                  "the paper ensures (theorem1.1.energy). The values of the estimates, and of mu with them, are not bounded by "
+                  "the paper ensures (theorem1.1.energy). In a simulation, which is no proof, the loop runs away backwards in its "
+                  "first iteration, under all assumptions: the train of Table 1, its masses known, is to stand where f^a = m c_0 - 39.9 "
+                  "kN on motor cars and m c_0 on trailers, so that u_r is 39.9 kN and 0, at c_1 = 0.01, c_2 = 10, c_3 = 0.04, gamma_v = 0.125, gamma_a = "
+                  "2.5e-4 and 100 for the others; it rolls back, at 26 m/s the aerodynamic force of (2) wins over "
+                  "what the motors have left, and at 3617 s it is faster than 1e4 m/s: for longer T no motion exists on [0, T]. "
+                  "At the gains of section IV it rolls back at 10 m/s and does not run away. The values of the estimates, and of mu with them, are not bounded by "
                   "their integrals; no motion is known in which they grow. A saturation in (17) to (21), as (22) has it, would "
                   "bound the estimates (theorem1.1.saturated).")
 def all_bounded() -> Goal:
