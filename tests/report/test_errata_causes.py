@@ -40,8 +40,8 @@ def test_causes_are_told_before_what_falls_with_them_and_their_evidence_behind()
         "## Evidence: the causes"))
     assert causes < falling < alone < shown
     told = text[causes:falling]
-    assert "Other lines rest on 3 that fail; they are 2 different ones but for" in told
-    assert "3 more lines fail and rest on causes. What" in told
+    assert "3 lines fail by themselves, and others rest on them; but for their letters they are 2" in told
+    assert "3 more lines fail and rest on them. What" in told
     # (2) says of y what (1) says of x; on (1) rest Theorem 1 and (4).
     assert ("- Corrections 1 and 2: Equation (1) is false as printed; 1 headline statement and 1 other line rest on it."
             "\n") in told
@@ -72,7 +72,7 @@ def test_what_holds_although_the_text_comes_to_it_through_a_line_that_fails_stan
     slip = _line("6", "x == 4", severity="cosmetic", point={"x": "0"})
     rows = judged([*(d for d in chain() if d.claim.equation != "6"), slip, *holding])
     text = markdown(errata(rows, CITATION))
-    assert "3 more lines fail and rest on causes. One headline statement holds, but the text's way to it passes" in text
+    assert "3 more lines fail and rest on them. One headline statement holds, but the text's way to it passes" in text
     held = text[text.index("## What holds as it stands"):text.index("## Evidence")]
     assert "stands\n\n- Section 3: equation (8).\n" in held  # a slip on the way changes nothing
     assert "## What holds, though the text comes to it through lines that fail\n\n- Section 3: equation (7).\n" in held
@@ -98,7 +98,7 @@ def test_a_statement_that_holds_by_another_way_is_not_counted_among_those_that_f
                    section="3", rests_on=("doe2026:1",), severity="result")
     shown = proof(holds.id, "x**2 >= 0", [{"coefficient": "1", "factors": [{"square": "x"}]}], {"x": "0"})
     text = markdown(errata(judged([*chain(), Decision(holds, "proved", "by hand", "exact", 0.0, shown)]), CITATION))
-    assert "3 more lines fail and rest on causes. One headline statement holds, but the text's way to it passes" in text
+    assert "3 more lines fail and rest on them. One headline statement holds, but the text's way to it passes" in text
     assert "Theorem 2 (it holds) holds, but not by the way of the text" in text and "## What holds" not in text
 
 
@@ -125,4 +125,5 @@ def test_a_theorem_whose_condition_the_numbers_break_holds_beside_what_is_proved
     assert ("- Theorem 1 (it converges) holds, but not at the printed numbers, which break equation (1). "
             "See correction 2; in the text it rests on correction 1.") in text
     assert "**Beside it is proved:**" in text and "Should read" not in text
-    assert "Other lines rest on one that fails. One headline statement holds" in text  # the theorem does not fail
+    # The theorem does not fail.
+    assert "One line fails by itself, and others rest on it. One headline statement holds" in text

@@ -75,7 +75,8 @@ def _reading(found: Finding, context: Context) -> list[Block]:
     if found.other_reading == found.printed:  # it is another line that is read otherwise
         other = Paragraph(f"It holds with another line read otherwise: “{worded(context.readings[found.equation])}”.",
                           "Other reading")
-    return [Heading(3, heading_of(found)), Formula(found.printed, "As extracted"), other, *_found(found, context, True),
+    return [Heading(3, heading_of(found)), Formula(found.printed, "As extracted"), other,
+            *labelled((READ_AS, noted(found.reading, context.titles))), *_found(found, context, True),
             *labelled(("Note", noted(found.note, context.titles)))]
 
 

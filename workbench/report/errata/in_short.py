@@ -59,14 +59,15 @@ def _resting(resting: Sequence[Finding], context: Context) -> tuple[Item, ...]:
 
 
 def _how_many(causes: int, lines: int, rest: Sequence[Finding]) -> str:
-    these = f"Other lines rest on {'one' if lines == 1 else lines} that fail{'s' if lines == 1 else ''}"
-    kinds = f"; they are {causes} different ones but for their letters" if causes < lines else ""
+    these = ("One line fails by itself, and others rest on it" if lines == 1 else
+             f"{lines} lines fail by themselves, and others rest on them")
+    kinds = f"; but for their letters they are {causes} different ones" if causes < lines else ""
     holding = sum(f.verdict == "proved" for f in rest)
-    failing = len(rest) - holding
-    more = {0: "", 1: " One more line fails and rests on a cause."}.get(
-        failing, f" {failing} more lines fail and rest on causes.")
-    passes = {0: "", 1: " One headline statement holds, but the text's way to it passes through a cause."}.get(
-        holding, f" {holding} headline statements hold, but the text's way to them passes through a cause.")
+    failing, through = len(rest) - holding, "it" if lines == 1 else "one of them"
+    more = {0: "", 1: f" One more line fails and rests on {through}."}.get(
+        failing, f" {failing} more lines fail and rest on {through if lines == 1 else 'them'}.")
+    passes = {0: "", 1: f" One headline statement holds, but the text's way to it passes through {through}."}.get(
+        holding, f" {holding} headline statements hold, but the text's way to them passes through {through}.")
     return f"{these}{kinds}.{more}{passes} What shows it all follows behind, by the numbers of the corrections."
 
 
