@@ -9,6 +9,7 @@ from workbench.proof.places import place_of
 from workbench.proof.wording import listed
 from workbench.report.errata.blocks import Block, Formula, Paragraph
 from workbench.report.errata.conditions import ALONG, UNDER, listed_conditions
+from workbench.report.errata.names import listed_lines
 from workbench.report.hypotheses import Need
 from workbench.report.worded import worded
 
@@ -26,7 +27,7 @@ def needed(needs: Sequence[Need]) -> list[Block]:
     plain = [need for need in needs[1:] if not need.rates and all(map(_SIGN.fullmatch, need.conditions))]
     used = [need for need in needs[1:] if need not in plain]
     if sum(len(text) for need in used for text in (need.statement, *need.conditions, *need.rates)) > MOST:
-        names = worded(listed([place_of(need.equation, need.title) for need in used]))
+        names = _names(used)
         return [*blocks, Paragraph(f"{names}, which are part of the statement: what each says, under which conditions "
                                    "and along which motion, is written out with the proofs below.", "Its proof uses")]
     if used:
@@ -34,9 +35,12 @@ def needed(needs: Sequence[Need]) -> list[Block]:
     for need in used:
         blocks += [Paragraph(f"{worded(place_of(need.equation, need.title))}, which is:", "It uses"),
                    Formula(need.statement), *_conditions(need)]
-    names = worded(listed([place_of(need.equation, need.title) for need in plain]))
-    last = Paragraph(f"{names}, under no conditions but the signs of letters.", "It uses")
+    last = Paragraph(f"{_names(plain)}, under no conditions but the signs of letters.", "It uses")
     return [*blocks, *([last] if plain else [])]
+
+
+def _names(needs: Sequence[Need]) -> str:
+    return worded(listed_lines([place_of(need.equation, need.title) for need in needs]))
 
 
 def _conditions(need: Need) -> list[Block]:

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from workbench.proof.verdict import Decision
-from workbench.proof.wording import listed
 from workbench.report.errata.blocks import Block, Formula, Heading, Items, Paragraph
 from workbench.report.errata.conditions import ALWAYS, UNDER, listed_conditions, motion
 from workbench.report.errata.letters import in_blocks, legend
-from workbench.report.errata.names import name_of_line, noted
+from workbench.report.errata.names import listed_lines, name_of_line, noted
 from workbench.report.errata.proof_steps import HOW_TO_READ, proof_steps
 from workbench.report.letters import letters_of
 
@@ -60,8 +59,8 @@ def _stated(d: Decision, by_id: Mapping[str, Decision], titles: Mapping[str, str
     """The statement, what is to be known of it, what its proof uses, and what of that is not shown."""
     blocks: list[Block] = [Formula(d.claim.printed, "Printed" if d.claim.origin == "printed" else "Statement")]
     used = [f"{name_of_line(by_id[name])} ({_verdict(by_id[name])})" for name in d.claim.premises if name in by_id]
-    under = listed([name_of_line(by_id[name]) for name in d.proved_under])
-    for label, text in (("Note", noted(d.claim.note, titles)), ("It uses", f"{listed(used)}." if used else ""),
+    under = listed_lines([name_of_line(by_id[name]) for name in d.proved_under])
+    for label, text in (("Note", noted(d.claim.note, titles)), ("It uses", f"{listed_lines(used)}." if used else ""),
                         ("Not shown", f"{under}: what rests on them is proved only where they hold." if under else "")):
         if text:
             blocks.append(Paragraph(text, label))

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from workbench.proof.places import place_of
 from workbench.proof.verdict import Decision
+from workbench.proof.wording import listed
 from workbench.report.worded import worded
 
 _RATE = re.compile(r"\bD\((\w+)\)")
@@ -36,8 +37,14 @@ def _line_names(titles: Mapping[str, str]) -> re.Pattern[str] | None:
 
 
 def _in_sentence(place: str) -> str:
+    """The name of a line where no sentence begins with it."""
     small = ("Equation", "The ")
     return place[0].lower() + place[1:] if place.startswith(small) else place
+
+
+def listed_lines(names: Sequence[str]) -> str:
+    """The names of lines at the beginning of a sentence."""
+    return listed([*names[:1], *map(_in_sentence, names[1:])])
 
 
 def name_of_line(d: Decision) -> str:
