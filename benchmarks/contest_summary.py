@@ -39,7 +39,7 @@ def rests_on(folder: Path, contest: Contest) -> Iterator[str]:
     head = json.loads((folder / JOURNAL_NAME).read_text(encoding="utf-8").partition("\n")[0])
     played_by = "the code and with the values" if contest_digest(contest, "pareto") in head.values() else (
         "an earlier state of the code or with other values than those")
-    yield f"- The matches were played by {played_by} that stand here."
+    yield f"- The matches were played by {played_by} that stood here when this page was written."
 
 
 def records(path: Path) -> list[dict[str, object]]:
