@@ -14,7 +14,7 @@ from workbench.report.finding import Finding
 from workbench.report.worded import worded
 
 NAMED = 5  # lines up to which each is named
-_PLURAL = re.compile(r"(?:\d+ )?[A-Za-z]+s\b")  # Theorems 2 and 3, 12 lines
+_PLURAL = re.compile(r"(?:\d+ |the )?[A-Za-z]+s\b")  # Theorems 2 and 3, 12 lines, the figures
 
 
 def resting_lines(decisions: Sequence[Decision], found: Sequence[Finding]) -> dict[str, list[str]]:
