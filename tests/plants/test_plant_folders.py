@@ -3,6 +3,7 @@
 import io
 import json
 import re
+import shutil
 import subprocess
 import sys
 from contextlib import contextmanager
@@ -142,6 +143,16 @@ def test_a_sweep_is_the_same_for_the_same_seed_and_draws_what_is_known(mine):
     one, same, other = (sweep(study, 2, seed, ["adaptive"], workers=1) for seed in (1, 1, 2))
     assert list(one.csv()) == list(same.csv()) != list(other.csv())
     assert all(0.2 <= row["drawn_a"] <= 0.8 for row in one.rows())
+
+
+def test_a_sweep_takes_what_is_later_than_a_period(mine, tmp_path):
+    """What compiles the loops once ran a single period, in which nothing late arrives, and ended with a traceback."""
+    late = shutil.copytree(mine, tmp_path / "late")
+    study = late / "study.toml"
+    study.write_text("sensing = { late_s = { x = 0.1 } }\nactuators = { delay_s = { u = 0.075 } }\n"
+                     + study.read_text(encoding="utf-8"), encoding="utf-8")
+    found = sweep(load(late).study, runs=1, workers=1)
+    assert [row["failed"] for row in found.rows()] == [None] * len(found.names)
 
 
 def test_a_sweeps_table_tells_what_is_farthest_from_zero_and_the_least_of_the_smallest(mine, tmp_path, monkeypatch):
