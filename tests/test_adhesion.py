@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from workbench.optimal.bound_checker import FINE, _ranges, checked_bound
 from workbench.optimal.bound_document import bound_document
+from workbench.optimal.cars.car_train import CarTrain, car_limits
 from workbench.optimal.certified_export import COLUMNS, certified_rows
 from workbench.optimal.course import Course
 from workbench.optimal.inputs import adhesion
@@ -99,6 +100,14 @@ def test_adhesion_is_of_both_brakes_together(tmp_path):
     assert run.check.force_excess <= 1e-9
     assert float(checked_bound(json.loads(json.dumps(bound_document(slippery, falling, run, 0.0, 0.0))))) == (
         pytest.approx(run.lower_bound_j, rel=1e-6))
+
+
+def test_cars_have_no_negative_brake_where_adhesion_leaves_friction_nothing(tmp_path):
+    cars = train(tmp_path, "[adhesion]\nfactor = 0.3\nadhesive_share = 0.6\n")
+    limits = car_limits(CarTrain(cars, (True, False, True), 1e6, 1e4), np.array([0.0, 10.0, 25.0]))
+    assert limits.friction_n.min() == 0.0
+    both = (limits.electric_n + limits.friction_n).sum(axis=1)
+    assert np.all(both >= largest_braking(cars, np.array([0.0, 10.0, 25.0])) * (1 - 1e-12))
 
 
 def test_a_bound_is_one_of_the_curve_and_not_of_what_follows_it_from_below(tmp_path, monkeypatch):

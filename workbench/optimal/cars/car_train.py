@@ -76,7 +76,7 @@ def car_limits(train: CarTrain, speed_mps: Array) -> CarLimits:
     speed = speed_mps[:, None] if speed_mps.ndim == 1 else speed_mps
     share = np.array(train.motors, dtype=float) / sum(train.motors)
     vehicle, even = train.vehicle, np.ones((len(speed), train.cars))
-    friction = largest_braking(vehicle, speed) - largest_force(vehicle.regenerative, speed)
+    friction = np.maximum(largest_braking(vehicle, speed) - largest_force(vehicle.regenerative, speed), 0.0)
     return CarLimits(even * share * largest_force(vehicle.traction, speed),
                      even * share * largest_force(vehicle.regenerative, speed),
                      even * friction / train.cars)
