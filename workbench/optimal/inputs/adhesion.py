@@ -2,7 +2,8 @@
 
 The largest force that wheels pass on, falling and convex in the speed (`trains/actuator.py`, Curtius and Kniffler),
 lies above its tangents and below its chords. Runs keep to the tangents, so that they can be driven; bounds are proved
-of a train with the chords, which can do whatever the curve allows. Both are within a thousandth of the curve.
+of a train with the chords, which can do whatever the curve allows. For the usual numbers both are within a thousandth
+of the curve up to 90 m/s.
 """
 
 from __future__ import annotations
