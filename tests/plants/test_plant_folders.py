@@ -60,6 +60,7 @@ def test_every_verb_takes_it(mine):
     assert len((folder / "mc" / "sweep.csv").read_text().splitlines()) == 1 + 2 * 2
     tuned = run("tune", "mine2026", "--write", "--workers", 1, folder=folder)
     assert tuned.returncode == 0 and "tuned: alpha" in tuned.stdout, tuned.stderr
+    assert "not tuned, since tuning.ranges does not name them: mpc" in tuned.stdout
     searched = run("gains", "mine2026", "--json", "gains.json", "--workers", 1, folder=folder)
     assert searched.returncode == 0, searched.stderr
     effects = json.loads((folder / "gains.json").read_text())["effects"]
