@@ -3,6 +3,7 @@
 import io
 import json
 import re
+import shutil
 import subprocess
 import sys
 from contextlib import contextmanager
@@ -59,6 +60,7 @@ def test_every_verb_takes_it(mine):
     assert len((folder / "mc" / "sweep.csv").read_text().splitlines()) == 1 + 2 * 2
     tuned = run("tune", "mine2026", "--write", "--workers", 1, folder=folder)
     assert tuned.returncode == 0 and "tuned: alpha" in tuned.stdout, tuned.stderr
+    assert "not tuned, since tuning.ranges does not name them: mpc" in tuned.stdout
     searched = run("gains", "mine2026", "--json", "gains.json", "--workers", 1, folder=folder)
     assert searched.returncode == 0, searched.stderr
     effects = json.loads((folder / "gains.json").read_text())["effects"]
@@ -142,6 +144,16 @@ def test_a_sweep_is_the_same_for_the_same_seed_and_draws_what_is_known(mine):
     one, same, other = (sweep(study, 2, seed, ["adaptive"], workers=1) for seed in (1, 1, 2))
     assert list(one.csv()) == list(same.csv()) != list(other.csv())
     assert all(0.2 <= row["drawn_a"] <= 0.8 for row in one.rows())
+
+
+def test_a_sweep_takes_what_is_later_than_a_period(mine, tmp_path):
+    """What compiles the loops once ran a single period, in which nothing late arrives, and ended with a traceback."""
+    late = shutil.copytree(mine, tmp_path / "late")
+    study = late / "study.toml"
+    study.write_text("sensing = { late_s = { x = 0.1 } }\nactuators = { delay_s = { u = 0.075 } }\n"
+                     + study.read_text(encoding="utf-8"), encoding="utf-8")
+    found = sweep(load(late).study, runs=1, workers=1)
+    assert [row["failed"] for row in found.rows()] == [None] * len(found.names)
 
 
 def test_a_sweeps_table_tells_what_is_farthest_from_zero_and_the_least_of_the_smallest(mine, tmp_path, monkeypatch):

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from workbench.paper.plants.study import _findings, _inaccurate, _winners
+from workbench.api.functions import entrant
+from workbench.mpc.plant_tracking import PlantMpc
+from workbench.paper.plants.study import _findings, _inaccurate, _taken_for_zero, _winners
 from workbench.paper.results import Curve, Plot
 from workbench.report.charts.chart import chart_json, chart_of
 from workbench.report.standings import parted, standings
@@ -16,7 +18,7 @@ from workbench.simulate.plants.step_length import shortest_time
 from workbench.systems.law import StateLaw
 from workbench.systems.plant import Plant
 from workbench.systems.setting import Setting
-from workbench.systems.signals import Constant
+from workbench.systems.signals import Constant, Step
 
 x_1, u = sp.symbols("x_1 u")
 CART = SimpleNamespace(id="doe.cart", inputs=(u,), state_limits={}, units={})
@@ -61,7 +63,8 @@ def test_a_run_whose_step_was_too_long_says_so_though_it_came_to_an_end():
 
 def test_a_controller_whose_step_takes_longer_than_its_period_would_not_keep_up():
     setting = SimpleNamespace(tracks={}, integrator="radau", every_metric=(), plant=CART)
-    late = SimpleNamespace(name="mpc", ahead_s=0.0, failed=None, fallbacks=0, step_us=601.0, period_s=1e-4)
+    late = SimpleNamespace(name="mpc", ahead_s=0.0, failed=None, fallbacks=0, step_us=601.0, period_s=1e-4,
+                           at_zero=())
     assert [*_findings(setting, [late])] == ["A step of mpc took 0.000601 s here, longer than its period of 0.000100 "
                                              "s: on this computer it would not keep up."]
     assert not [*_findings(setting, [SimpleNamespace(**{**vars(late), "step_us": 99.0})])]
@@ -76,7 +79,7 @@ def test_who_leaves_the_plant_s_limits_is_told_and_wins_over_nobody_who_keeps_th
     def gone(name, error, excess):
         run = ended(name, error)
         return SimpleNamespace(**{**vars(run), "metrics": {**run.metrics, "x_1_limit_excess": excess}, "ahead_s": 0.0,
-                                  "fallbacks": 0, "period_s": 0.1})
+                                  "at_zero": (), "fallbacks": 0, "period_s": 0.1})
 
     far, near, slight = gone("mpc", 0.02, 24.6), gone("pid", 0.5, 0.0), gone("lqr", 0.6, 0.01)
     assert _winners(setting, [far, slight, near]).text[0][1:4] == (
@@ -85,3 +88,20 @@ def test_who_leaves_the_plant_s_limits_is_told_and_wins_over_nobody_who_keeps_th
         "RMS error of x_1, least within the plant's limits: pid, 0.500 m.",
         "mpc goes beyond the plant's limits: x_1 by 24.6 m."]
     assert _winners(setting, [far, gone("lost", 0.5, 3.0)]).text[0][1] == "mpc beyond the limits"
+
+
+def test_an_mpc_that_takes_a_feed_for_zero_is_told_of():
+    """An MPC that planned with an empty feed kept its pump still, and lost by fifty times without a word."""
+    x, u, feed = sp.symbols("x u feed", real=True)
+    tank = Plant("tank", (x,), (u * (feed - x),), inputs=(u,), disturbances=(feed,), input_limits={u: (0, 1)},
+                 units={feed: "g/L"})
+    setting = Setting(tank, 1.0, step_s=0.05, initial={"x": 1.0}, references={"r": Constant(value=2.0)},
+                      tracks={"x": "r"}, disturbances={"feed": Step(before=10.0, after=12.0, at_s=0.5)})
+    blind, seeing = (run(setting, entrant(PlantMpc(3, {"x": 1.0}, {"u": 1e-3}, **more), 0.1, name="mpc"))
+                     for more in ({}, {"observer": {"feed": 1.0}}))
+    assert seeing.at_zero == () and not [*_taken_for_zero(setting, seeing)]
+    assert [*_taken_for_zero(setting, blind)] == [
+        "mpc plans with disturbance feed at zero, where it is 10.0 to 12.0 g/L all along: it would find it by observer "
+        "= { feed = ... }, or what is known of it is a parameter."]
+    for passing in (Step(after=3.0, at_s=0.5), Constant(value=0.0)):
+        assert not [*_taken_for_zero(setting.varied(disturbances={"feed": passing}), blind)]

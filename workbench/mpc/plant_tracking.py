@@ -38,7 +38,8 @@ class TrackingMpc:
     """A sampled controller: one optimal control problem a sample, warm-started from the one before.
 
     fallbacks counts the samples at which the solver gave nothing usable; its last plan goes on there. state: what is
-    taken for the plant's state, `MeasuredState` or `KalmanState`; ahead_s: how far ahead it is told the references.
+    taken for the plant's state, `MeasuredState` or `KalmanState`; ahead_s: how far ahead it is told the references;
+    at_zero: the disturbances that its plan takes for zero, because it does not estimate them.
     """
 
     title = "tracking MPC"
@@ -62,6 +63,7 @@ class TrackingMpc:
         else:
             self.state = MeasuredState(how, setting, period_s, self._motion)
         self.ahead_s = how.horizon * period_s
+        self.at_zero = tuple(str(d) for d in setting.plant.disturbances if str(d) not in how.observer)
         self._called = False
         self._excess = len(self._program.limited)
         self._stage = self._n + 2 * self._m + self._excess

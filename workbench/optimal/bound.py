@@ -183,15 +183,14 @@ def _cheapest(vehicle: Vehicle, cells: Cells, p: Array, middle: Array) -> tuple[
            zero + c + cells.drag.max(axis=0))
     hardest = (zero, vehicle.inertia_kg * vehicle.max_deceleration_mps2 - a - cells.least_force, zero - b_1,
                zero - c - cells.drag.min(axis=0))
-    friction = (zero, zero + vehicle.friction_brake_n, zero, zero)
     ranges = speed_ranges(vehicle, cells.top_mps)
     is_accelerated = np.isfinite(vehicle.max_acceleration_mps2)
     is_braked = np.isfinite(vehicle.max_deceleration_mps2)
     ranges = cut_at_crossings(ranges, [
         *([(top, ranges.traction)] if is_accelerated else []),
-        *([(hardest, (zero, zero, zero, zero)), (hardest, ranges.brake), (hardest, _sum(ranges.brake, friction))]
+        *([(hardest, (zero, zero, zero, zero)), (hardest, ranges.brake), (hardest, _sum(ranges.brake, ranges.friction))]
           if is_braked else [])])
-    traction, brake = ranges.traction, ranges.brake
+    traction, brake, friction = ranges.traction, ranges.brake, ranges.friction
     most, least = _times(-pull, traction), _sum(_times(-regain, brake), _times(-rub, friction))
     speed = (ranges.low + ranges.high) / 2
     if is_accelerated:
@@ -204,7 +203,7 @@ def _cheapest(vehicle: Vehicle, cells: Cells, p: Array, middle: Array) -> tuple[
         hard, electric = force_at(hardest, speed), force_at(brake, speed)
         mid_regain = np.maximum(vehicle.regenerative_efficiency - middle, 0.0)
         mid_rub = np.maximum(-middle, 0.0)
-        both, one = mid_regain * electric + mid_rub * vehicle.friction_brake_n, mid_regain * hard
+        both, one = mid_regain * electric + mid_rub * force_at(friction, speed), mid_regain * hard
         mixed = vehicle.regenerative_efficiency * electric + mid_rub * hard
         # All that the electric brake returns, and the hardest braking at the price of friction.
         all_returned = _sum(_times(-vehicle.regenerative_efficiency * np.ones_like(p), brake), _times(-rub, hardest))

@@ -44,6 +44,9 @@ OF_VALUE, OF_ENERGY = OF_P + FINE, OF_P + 2 * FINE
 # Ranges of speed on which a limit of the acceleration is held against those of the forces, and halvings by which the
 # speed at which it passes one is found in each.
 SPEED_RANGES, CROSSING_HALVINGS = 4, 30
+# By so much what one brake leaves to the other is taken above itself, to 2^-FINE N, so that rounding does not make it
+# negative.
+LIFTED = 1 << 40
 # A value is claimed one of these shares below what was found: of what it is the sum of there, or at the highest speed.
 SLACKS = (1e-12, 1e-10, 1e-8, 1e-6)
 
@@ -119,12 +122,14 @@ def stated_digests(certificate: dict[str, Any]) -> dict[str, str]:
 
 
 class _Range(NamedTuple):
-    """Speeds from low to high, and the least limit of traction and of the electric brake there, to 2^-FINE."""
+    """Speeds from low to high, and limits there, to 2^-FINE: of traction, of the electric brake, and of friction beside
+    it."""
 
     low: int
     high: int
     pull: Four
     electric: Four
+    friction: Four
 
 
 class _Train:
@@ -146,18 +151,50 @@ class _Train:
         self.fastest = None if fastest is None else _above(Fraction(fastest) * Fraction(inertia_kg))
         self.hardest = None if hardest is None else _above(Fraction(hardest) * Fraction(inertia_kg))
         is_limited = fastest is not None or hardest is not None
-        self.ranges, self.crossings = tuple(_ranges(train, top, is_limited)), 4 if is_limited else 1
+        self.ranges = tuple(_ranges(train, top, is_limited, self.friction))
+        self.crossings = 4 if is_limited else 1
 
 
-def _ranges(train: dict[str, Any], top: int, is_limited: bool) -> Iterator[_Range]:
+def _ranges(train: dict[str, Any], top: int, is_limited: bool, friction: int) -> Iterator[_Range]:
     fast = top / 2**FINE
     borders = {0, top, *(top * k // SPEED_RANGES for k in range(1, SPEED_RANGES) if is_limited)}
-    for limit in (train["traction"], train["regenerative"]):
-        borders |= {at for at in _changes(limit, fast) if 0 < at < top}
+    rows = train.get("braking_table") or []
+    both = {"force_n": max(row[1] for row in rows), "power_w": None, "table": rows} if rows else None
+    for limit in (train["traction"], train["regenerative"], both):
+        borders |= {at for at in _changes(limit, fast) if 0 < at < top} if limit else set()
+    if both:
+        for low, high in pairwise(sorted(borders)):
+            left = _less(_limit(both, low, high), _limit(train["regenerative"], low, high))
+            borders |= {*_zeros(left, low, high), *_zeros(_less(left, (0, friction, 0, 0)), low, high)}
     if len(borders) > MOST_RANGES:
         raise ValueError(f"has more than {MOST_RANGES} ranges of speed")
     for low, high in pairwise(sorted(borders)):
-        yield _Range(low, high, *(_limit(train[name], low, high) for name in ("traction", "regenerative")))
+        electric, beside = _limit(train["regenerative"], low, high), (0, friction, 0, 0)
+        if both:
+            electric, beside = _brakes(electric, _limit(both, low, high), beside, low, high)
+        yield _Range(low, high, _limit(train["traction"], low, high), electric, beside)
+
+
+def _brakes(electric: Four, both: Four, friction: Four, low: int, high: int) -> tuple[Four, Four]:
+    """Limits of the electric brake and of friction where both together have one. A newton of the electric brake gains
+    no less than one of friction, so that any of three pairs bounds what is gained: no limit of both; all of it
+    electric; the electric brake full and friction what that leaves, where it is not negative: it bends downwards, so
+    that the ends of the range tell."""
+    a, b, c, d = _less(both, electric)
+    left, v = (a, b + LIFTED, c, d), (low + high) / 2**(FINE + 1)
+    if _at(left, v) <= LIFTED:
+        return both, (0, 0, 0, 0)
+    may = a <= 0 and d == 0 and all(at * (b + LIFTED << FINE) + (a << 2 * FINE) + c * at**2 >= 0 for at in (low, high))
+    return electric, left if may and _at(left, v) < friction[1] else friction
+
+
+def _zeros(apart: Four, low: int, high: int) -> Iterator[int]:
+    """Speeds between two others at which a difference of limits without a square is zero or nearly so."""
+    a, b, c, _ = apart
+    inside = b * b - 4 * a * c
+    roots = [-b + sign * math.isqrt(inside) for sign in (1, -1)] if c and inside >= 0 else []
+    found = [(root << FINE) // (2 * c) for root in roots] if c else [-(a << FINE) // b] if b else []
+    yield from (at for at in found if low < at < high)
 
 
 def _changes(limit: dict[str, Any], fast: float) -> Iterator[int]:
@@ -244,7 +281,6 @@ def _groups(train: _Train, cell: _Cell) -> Iterator[tuple[int, int, Four, Four, 
     nothing = 0, 0, 0, 0
     least_p, most_p = min(cell.p), max(cell.p)
     pulls, regains, rubs = most_p > train.pull_from, least_p < train.returned, least_p < 0
-    friction = 0, train.friction, 0, 0
     top = 0, train.a + cell.most_force + (train.fastest or 0), train.b, train.c + max(cell.drag) + 1
     hardest = 0, (train.hardest or 0) - train.a - cell.least_force, -train.b, -train.c - min(cell.drag)
     middle_p = (cell.p[0] + cell.p[1]) / 2**(OF_P + 1)
@@ -259,14 +295,14 @@ def _groups(train: _Train, cell: _Cell) -> Iterator[tuple[int, int, Four, Four, 
         end = min(one.high, cell.limit)
         apart = [_less(top, one.pull)] if may_top else []
         if may_brake:
-            apart += [hardest, _less(hardest, one.electric), _less(hardest, one.electric, friction)]
+            apart += [hardest, _less(hardest, one.electric), _less(hardest, one.electric, one.friction)]
         for low, high in pairwise(sorted({one.low, end, *(at for of in apart for at in _crossings(one, end, of))})):
             v = (low + high) / 2**(FINE + 1)
             pull = top if may_top and _at(top, v) < _at(one.pull, v) else one.pull if pulls else nothing
-            electric, rubbed, is_all = one.electric if regains else nothing, friction if rubs else nothing, False
+            electric, rubbed, is_all = one.electric if regains else nothing, one.friction if rubs else nothing, False
             if may_brake and (hardest[1] << 2 * FINE) + (hardest[2] * high << FINE) + hardest[3] * high**2 >= 0:
                 hard, most = _at(hardest, v), _at(one.electric, v)
-                both, alone, mixed = regain * most + rub * train.friction, regain * hard, back * most + rub * hard
+                both, alone, mixed = regain * most + rub * _at(one.friction, v), regain * hard, back * most + rub * hard
                 if alone < min(both, mixed):
                     electric, rubbed = hardest, nothing
                 elif mixed < both:

@@ -55,7 +55,8 @@ def digests(vehicle: Vehicle, course: Course, timetable: Timetable, start_mps: f
 
 
 def _stated(vehicle: Vehicle, course: Course, start_mps: float, end_mps: float) -> dict[str, Any]:
-    """The run and the train as they stand in certificates."""
+    """The run and the train as they stand in certificates: the train of which bounds are proved."""
+    vehicle = vehicle.proven
     return {
         "run": {"position_m": course.position_m.tolist(), "limit_mps": course.limit_mps.tolist(),
                 "force_n": course.force_n.tolist(), "drag": course.drag.tolist(), "stops_m": list(course.stops_m),
@@ -65,7 +66,9 @@ def _stated(vehicle: Vehicle, course: Course, start_mps: float, end_mps: float) 
                   "regenerative": _limit(vehicle.regenerative),
                   **{name: _finite(getattr(vehicle, name)) for name in (
                       "traction_efficiency", "regenerative_efficiency", "friction_brake_n", "max_acceleration_mps2",
-                      "max_deceleration_mps2", "auxiliary_w")}}}
+                      "max_deceleration_mps2", "auxiliary_w")},
+                  **({"braking_table": [[float(speed), float(force)] for speed, force in vehicle.braking_table]}
+                     if vehicle.braking_table else {})}}
 
 
 def _limit(limit: ForceLimit) -> dict[str, Any]:

@@ -6,7 +6,7 @@ import numpy as np
 
 from workbench.optimal.course import Array
 from workbench.optimal.document_format import CertifiedRun
-from workbench.optimal.profile import Profile, largest_force
+from workbench.optimal.profile import Profile, largest_braking, largest_force
 from workbench.optimal.reference import Reference
 from workbench.optimal.vehicle import Vehicle
 from workbench.trains.resistance import davis_resistance
@@ -28,8 +28,7 @@ def certified_rows(vehicle: Vehicle, profile: Profile) -> Array:
     a, b_1, c = vehicle.davis_n
     force = (vehicle.inertia_kg * acceleration + profile.course.force_n[cell, end]
              + davis_resistance(speed, a, b_1, c + profile.course.drag[cell, end]))
-    limit = np.where(force > 0, largest_force(vehicle.traction, speed),
-                     largest_force(vehicle.regenerative, speed) + vehicle.friction_brake_n)
+    limit = np.where(force > 0, largest_force(vehicle.traction, speed), largest_braking(vehicle, speed))
     return np.column_stack((profile.position_m, profile.time_s, speed, acceleration, force, force * speed, limit,
                             profile.course.limit_mps[cell]))
 

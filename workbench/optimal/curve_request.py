@@ -65,4 +65,6 @@ def _held_back(vehicle: Vehicle, share: float) -> Vehicle:
         return ForceLimit(share * limit.force_n, share * limit.power_w, tuple((v, share * f) for v, f in limit.table))
 
     return replace(vehicle, traction=less(vehicle.traction), regenerative=less(vehicle.regenerative),
-                   friction_brake_n=share * vehicle.friction_brake_n)
+                   friction_brake_n=share * vehicle.friction_brake_n,
+                   braking_table=tuple((v, share * f) for v, f in vehicle.braking_table),
+                   bounded=_held_back(vehicle.bounded, share) if vehicle.bounded else None)

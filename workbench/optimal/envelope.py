@@ -14,12 +14,14 @@ from workbench.errors import WorkbenchError
 from workbench.optimal.course import Array, Course
 from workbench.optimal.force_limits import (
     Limits,
+    Tables,
+    braking_within,
     compiled_resistance,
     device_limits,
     force_within,
     resistance_numbers,
 )
-from workbench.optimal.profile import Profile, largest_force
+from workbench.optimal.profile import Profile, largest_braking, largest_force
 from workbench.optimal.vehicle import Vehicle
 from workbench.trains.resistance import davis_resistance
 
@@ -48,14 +50,14 @@ class InfeasibleRunError(WorkbenchError):
 
 @compiled(error_model="numpy", _nrt=False)
 def _slope(b: float, sign: float, line: float, drag: float, numbers: tuple[float, ...], limits: Limits,
-           tables: tuple[Array, Array]) -> float:
+           tables: Tables) -> float:
     """db/ds with full traction (sign 1), or its negative with full brakes (sign -1), within the comfort limit."""
     inertia, a, b_1, c, friction, fastest, hardest = numbers
     v = np.sqrt(2.0 * max(b, 0.0))
     resistance = compiled_resistance(v, a, b_1, c + drag) + line
     if sign > 0:
         return float(min((force_within(limits[0], tables[0], v) - resistance) / inertia, fastest))
-    return float(min((force_within(limits[1], tables[1], v) + friction + resistance) / inertia, hardest))
+    return float(min((braking_within(limits, tables, friction, v) + resistance) / inertia, hardest))
 
 
 @compiled(error_model="numpy", _nrt=False)
@@ -70,7 +72,7 @@ def _least_force(limit: tuple[float, float], table: Array, slow: float, fast: fl
 
 @compiled(error_model="numpy", _nrt=False)
 def _allowed(b: float, reached: float, sign: float, line: tuple[float, float], drag: tuple[float, float], share: float,
-             numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array]) -> float:
+             numbers: tuple[float, ...], limits: Limits, tables: Tables) -> float:
     """What `_slope` allows at every point of a cell on which b changes linearly to `reached`."""
     inertia, a, b_1, c, friction, fastest, hardest = numbers
     v, w = np.sqrt(2.0 * max(b, 0.0)), np.sqrt(2.0 * max(reached, 0.0))
@@ -84,13 +86,16 @@ def _allowed(b: float, reached: float, sign: float, line: tuple[float, float], d
         force = share * _least_force(limits[0], tables[0], min(v, w), max(v, w))
         return float(min((force - most) / inertia, fastest))
     least = min(here, there) - max(bend, 0.0)
-    force = share * (_least_force(limits[1], tables[1], min(v, w), max(v, w)) + friction)
+    force = _least_force(limits[1], tables[1], min(v, w), max(v, w)) + friction
+    if len(tables[2]):
+        force = min(force, _least_force((np.inf, np.inf), tables[2], min(v, w), max(v, w)))
+    force *= share
     return float(min((force + least) / inertia, hardest))
 
 
 @compiled(error_model="numpy", _nrt=False)
 def _slope_in_parts(b: float, most: float, step: float, sign: float, line: Array, drag: Array,
-                    numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array]) -> float:
+                    numbers: tuple[float, ...], limits: Limits, tables: Tables) -> float:
     """The mean `_slope` of a cell, in parts of PART_M and never above `most`; what ends below 0 stands still.
 
     A cell may be so long that one step over it passes every speed limit and falls back below a standstill.
@@ -111,7 +116,7 @@ def _slope_in_parts(b: float, most: float, step: float, sign: float, line: Array
 
 @compiled(error_model="numpy", _nrt=False)
 def _pass(b: Array, target: Array, start: float, step: Array, line: Array, drag: Array, usable: Array, stands: Array,
-          sign: float, numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array],
+          sign: float, numbers: tuple[float, ...], limits: Limits, tables: Tables,
           is_strict: bool) -> int:
     """Lower b, a copy of the target, to the largest that the limits allow; where it cannot go on, or -1.
 
@@ -151,7 +156,7 @@ def _pass(b: Array, target: Array, start: float, step: Array, line: Array, drag:
 
 @compiled(error_model="numpy", _nrt=False)
 def _run_up(raised: Array, top: Array, end: float, more: float, step: Array, line: Array, drag: Array, sign: float,
-            numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array]) -> None:
+            numbers: tuple[float, ...], limits: Limits, tables: Tables) -> None:
     """Raise a target at the end to what full traction needs in order to reach `end`; below top everywhere.
 
     With sign -1, and everything in the opposite order, to what full brakes need after a start at `end`.
@@ -238,7 +243,7 @@ def changing_limits(vehicle: Vehicle, target: Array) -> Array:
     """
     v = np.sqrt(2 * np.maximum(target, 0.0))
     pull = largest_force(vehicle.traction, v)
-    brake = largest_force(vehicle.regenerative, v) + vehicle.friction_brake_n
+    brake = largest_braking(vehicle, v)
     limit = np.where(np.diff(target) > 0, 1.0, 0.0)
     share = [np.abs(np.diff(force)) / np.maximum(np.maximum(force[1:], force[:-1]), 1e-9) for force in (pull, brake)]
     a, b_1, c = vehicle.davis_n

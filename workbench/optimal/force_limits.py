@@ -11,6 +11,8 @@ from workbench.trains.resistance import davis_resistance
 
 # Force and power of traction and of the electric brake.
 Limits = tuple[tuple[float, float], tuple[float, float]]
+# The tables of traction, of the electric brake and of both brakes together, shape (k, 2); empty for none.
+Tables = tuple[Array, Array, Array]
 NO_TABLE = np.zeros((0, 2))
 compiled_resistance = compiled()(davis_resistance)
 
@@ -44,14 +46,24 @@ def force_within(limit: tuple[float, float], table: Array, v: float) -> float:
     return float(force)
 
 
+@compiled(error_model="numpy", _nrt=False)
+def braking_within(limits: Limits, tables: Tables, friction: float, v: float) -> float:
+    """What both brakes together give at speed v."""
+    force = force_within(limits[1], tables[1], v) + friction
+    if len(tables[2]):
+        force = min(force, force_in(tables[2], v))
+    return float(force)
+
+
 def resistance_numbers(vehicle: Vehicle) -> tuple[float, ...]:
     """Inertia, Davis' numbers and the friction brake for compiled code, to which arrays are dearer than floats."""
     return tuple(map(float, (vehicle.inertia_kg, *vehicle.davis_n, vehicle.friction_brake_n)))
 
 
-def device_limits(vehicle: Vehicle) -> tuple[Limits, tuple[Array, Array]]:
-    """Traction and electric brake for compiled code: (force, power) each, and the table of each, shape (k, 2)."""
+def device_limits(vehicle: Vehicle) -> tuple[Limits, Tables]:
+    """Traction and brakes for compiled code: (force, power) of traction and electric brake, and the tables."""
     both = (vehicle.traction, vehicle.regenerative)
     pairs = [(float(limit.force_n), float(limit.power_w)) for limit in both]
-    tables = [np.array(limit.table, dtype=float) if limit.table else NO_TABLE for limit in both]
-    return (pairs[0], pairs[1]), (tables[0], tables[1])
+    tables = [np.array(table, dtype=float) if table else NO_TABLE
+              for table in (both[0].table, both[1].table, vehicle.braking_table)]
+    return (pairs[0], pairs[1]), (tables[0], tables[1], tables[2])

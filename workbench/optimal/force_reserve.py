@@ -13,7 +13,7 @@ from typing import Protocol
 import numpy as np
 
 from workbench.optimal.course import Array, Course
-from workbench.optimal.profile import largest_force
+from workbench.optimal.profile import largest_braking, largest_force
 from workbench.optimal.vehicle import Vehicle
 from workbench.trains.resistance import davis_resistance
 
@@ -93,7 +93,7 @@ def force_samples(vehicle: Vehicle, course: Course, run: MotionOverTime) -> Forc
     v = np.maximum(v, 0.0)
     force = needed_force(vehicle, course, s, v, a)
     electric = largest_force(vehicle.regenerative, v)
-    limit = np.where(force > 0, largest_force(vehicle.traction, v), electric + vehicle.friction_brake_n)
+    limit = np.where(force > 0, largest_force(vehicle.traction, v), largest_braking(vehicle, v))
     # A train that stands is held by its brakes.
     force = np.where((v > 1e-9) | (np.abs(a) > 1e-9), force, 0.0)
     return ForceSamples(s, v, force, limit, electric, np.concatenate((step, np.zeros(2 * len(width)))))

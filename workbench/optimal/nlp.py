@@ -24,7 +24,7 @@ from workbench.optimal.course import Array
 from workbench.optimal.grid import Grid
 from workbench.optimal.socp import LEAST_MARGIN, NoPlanError, Plan
 from workbench.optimal.timetable import Timetable, as_timetable
-from workbench.optimal.vehicle import ForceLimit, Vehicle
+from workbench.optimal.vehicle import Vehicle
 from workbench.trains.resistance import davis_resistance
 from workbench.trains.train import a_0, b_0, c_0, v
 
@@ -132,7 +132,9 @@ def _program(vehicle: Vehicle, grid: Grid, nodes: ClockNodes, start_mps: float, 
         if np.isfinite(limit.power_w) and limit.force_n > 0:
             table.append((force * mean * scales.force_n / limit.power_w, -np.inf, 1.0))
         if limit.table:
-            table.append((force - _table(limit, mean) / scales.force_n, -np.inf, 0.0))
+            table.append((force - _table(limit.table, mean) / scales.force_n, -np.inf, 0.0))
+    if vehicle.braking_table:
+        table.append((brake + grip - _table(vehicle.braking_table, mean) / scales.force_n, -np.inf, 0.0))
     most, least = vehicle.max_acceleration_mps2, vehicle.max_deceleration_mps2
     if np.isfinite(min(most, least)):
         table.append((inertia / vehicle.inertia_kg, -least, most))
@@ -158,9 +160,9 @@ def _program(vehicle: Vehicle, grid: Grid, nodes: ClockNodes, start_mps: float, 
                     (len(table), n), scales)
 
 
-def _table(limit: ForceLimit, speed: Any) -> Any:
+def _table(table: tuple[tuple[float, float], ...], speed: Any) -> Any:
     """The table's force at the speeds of all stages: linear between its points and constant beyond them."""
-    speeds, values = (np.array(column, dtype=float) for column in zip(*limit.table, strict=True))
+    speeds, values = (np.array(column, dtype=float) for column in zip(*table, strict=True))
     slopes = np.diff(values) / np.diff(speeds)
     bends = np.diff(np.concatenate(([0.0], slopes, [0.0])))
     return values[0] + sum(float(bend) * ca.fmax(speed - float(at), 0) for at, bend in zip(speeds, bends, strict=True))

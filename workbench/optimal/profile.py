@@ -10,7 +10,14 @@ from numpy.polynomial.legendre import leggauss
 
 from workbench.compile.package_kernels import compiled
 from workbench.optimal.course import Array, Course
-from workbench.optimal.force_limits import Limits, compiled_resistance, device_limits, force_within, resistance_numbers
+from workbench.optimal.force_limits import (
+    Limits,
+    Tables,
+    compiled_resistance,
+    device_limits,
+    force_within,
+    resistance_numbers,
+)
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 from workbench.trains.resistance import davis_resistance
 
@@ -88,6 +95,15 @@ def largest_force(limit: ForceLimit, speed_mps: Array) -> Array:
     return np.asarray(force, dtype=float)
 
 
+def largest_braking(vehicle: Vehicle, speed_mps: Array) -> Array:
+    """What both brakes together give, N, for an array of speeds in m/s."""
+    both = largest_force(vehicle.regenerative, speed_mps) + vehicle.friction_brake_n
+    if vehicle.braking_table:
+        speeds, most = zip(*vehicle.braking_table, strict=True)
+        both = np.minimum(both, np.interp(speed_mps, speeds, most))
+    return np.asarray(both)
+
+
 def forces(vehicle: Vehicle, profile: Profile, within: Array = WITHIN) -> Forces:
     """What the run needs at the wheel; what electric braking cannot give is left to friction.
 
@@ -105,7 +121,7 @@ def forces(vehicle: Vehicle, profile: Profile, within: Array = WITHIN) -> Forces
     regenerative = np.minimum(braking, largest_force(vehicle.regenerative, speed))
     friction = braking - regenerative
     excess = np.maximum(np.maximum(traction - largest_force(vehicle.traction, speed),
-                                   friction - vehicle.friction_brake_n), 0.0)
+                                   braking - largest_braking(vehicle, speed)), 0.0)
     return Forces(speed, traction, regenerative, friction, excess)
 
 
@@ -137,7 +153,7 @@ def _needed(share: float, b: tuple[float, float], line: tuple[float, float], dra
 
 @compiled(error_model="numpy", _nrt=False)
 def _cell_energies(found: Array, position: Array, half_square: Array, line: Array, drag: Array,
-                   numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array],
+                   numbers: tuple[float, ...], limits: Limits, tables: Tables,
                    whole: tuple[Array, Array], parts: tuple[Array, Array]) -> None:
     """Fill in the energy of each cell, J. whole, parts: points and weights of a quadrature, for cells at whose ends and
     middle the same forces act, and for the others."""

@@ -123,9 +123,32 @@ def find_timed_reference(vehicle: Vehicle, course: Course, timetable: Timetable,
                          like: Reference | None = None) -> Reference:
     """The run of least energy that meets every window of a timetable, as `find_reference`.
 
+    Where a limit is a curve, the bound is that of a train which can do all that the curve allows (`Vehicle.bounded`).
+
     Raises InputError for windows in another unit, InfeasibleRunError where no run meets the timetable, and where none
     was found that does.
     """
+    found = _driven_reference(vehicle, course, timetable, start_mps, end_mps, intervals, solver, like)
+    if vehicle.bounded is None:
+        return found
+    # What proves a bound of the one train proves one of the other too; by how much less is seen.
+    proven, of = lower_bound(vehicle.bounded, timetable.on(course), found.certificate, timetable, start_mps,
+                             end_mps), found.certificate
+    if like is None and _gap(found.energy_j, proven) > GAP_OF_CONES:
+        try:
+            other = _driven_reference(vehicle.bounded, course, timetable, start_mps, end_mps, intervals, solver, None)
+        except InfeasibleRunError:
+            pass  # none was found, although there is one: the bound stays
+        else:
+            if other.lower_bound_j > proven:
+                proven, of = other.lower_bound_j, other.certificate
+            found = replace(found, solve_s=found.solve_s + other.solve_s)
+    return replace(found, lower_bound_j=proven, certificate=of)
+
+
+def _driven_reference(vehicle: Vehicle, course: Course, timetable: Timetable, start_mps: float, end_mps: float,
+                      intervals: int | None, solver: Solver, like: Reference | None) -> Reference:
+    """The run of least energy and a bound of the train that drives it."""
     course = timetable.on(course)
     quickest, ideal = _quickest(vehicle, course, start_mps, end_mps)
     require_plausible(timetable, quickest)

@@ -15,12 +15,14 @@ from workbench.optimal.course import Array, Course
 from workbench.optimal.envelope import drivable, with_fine_cells
 from workbench.optimal.force_limits import (
     Limits,
+    Tables,
+    braking_within,
     compiled_resistance,
     device_limits,
     force_within,
     resistance_numbers,
 )
-from workbench.optimal.profile import Profile, largest_force
+from workbench.optimal.profile import Profile, largest_braking, largest_force
 from workbench.optimal.socp import Plan
 from workbench.optimal.vehicle import Vehicle
 from workbench.trains.resistance import davis_resistance
@@ -80,9 +82,8 @@ def _at_limit(vehicle: Vehicle, plan: Plan) -> NDArray[np.bool_]:
     """The intervals on which the plan is at full traction or full brakes."""
     speed = np.sqrt(2 * plan.half_square)
     mean = (speed[1:] + speed[:-1]) / 2
-    brake = largest_force(vehicle.regenerative, mean) + vehicle.friction_brake_n
     return np.asarray((plan.force_n > NEAR_LIMIT * largest_force(vehicle.traction, mean))
-                      | (plan.force_n < -NEAR_LIMIT * brake))
+                      | (plan.force_n < -NEAR_LIMIT * largest_braking(vehicle, mean)))
 
 
 def _held(vehicle: Vehicle, plan: Plan, course: Course, owner: NDArray[np.intp]) -> NDArray[np.bool_]:
@@ -101,7 +102,7 @@ def _held(vehicle: Vehicle, plan: Plan, course: Course, owner: NDArray[np.intp])
 
 @compiled(error_model="numpy", _nrt=False)
 def _followed(b: Array, x: Array, line: Array, drag: Array, first: NDArray[np.intp], b_plan: Array, planned: Array,
-              numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array]) -> None:
+              numbers: tuple[float, ...], limits: Limits, tables: Tables) -> None:
     """Fill b with half the squared speed at x, where each interval is driven from the plan's speed at its start on.
 
     first: where the plan's nodes are in x; planned: its forces, N.
@@ -109,7 +110,8 @@ def _followed(b: Array, x: Array, line: Array, drag: Array, first: NDArray[np.in
     b[0] = b_plan[0]
     for k in range(len(planned)):
         mean_speed = np.sqrt(b_plan[k] + b_plan[k + 1])
-        at_mean = (force_within(limits[0], tables[0], mean_speed), force_within(limits[1], tables[1], mean_speed))
+        at_mean = (force_within(limits[0], tables[0], mean_speed), force_within(limits[1], tables[1], mean_speed),
+                   braking_within(limits, tables, numbers[4], mean_speed))
         now = b_plan[k]
         for cell in range(first[k], first[k + 1]):
             width = x[cell + 1] - x[cell]
@@ -122,20 +124,20 @@ def _followed(b: Array, x: Array, line: Array, drag: Array, first: NDArray[np.in
 
 
 @compiled(error_model="numpy", _nrt=False)
-def _slope(b: float, line: float, drag: float, planned: float, at_mean: tuple[float, float], numbers: tuple[float, ...],
-           limits: Limits, tables: tuple[Array, Array]) -> float:
+def _slope(b: float, line: float, drag: float, planned: float, at_mean: tuple[float, float, float],
+           numbers: tuple[float, ...], limits: Limits, tables: Tables) -> float:
     """db/ds under the plan's force, or under the limit where the plan is at it.
 
-    at_mean: the limits of traction and of the electric brake at the interval's mean speed, N.
+    at_mean: the limits of traction, of the electric brake and of both brakes at the interval's mean speed, N.
     """
     inertia, a, b_1, c, friction = numbers
     v = np.sqrt(2.0 * max(b, 0.0))
-    most, electric = at_mean
+    most, electric, both = at_mean
     force, electric_now = planned, force_within(limits[1], tables[1], v)
     if planned > NEAR_LIMIT * most:
         force = planned * force_within(limits[0], tables[0], v) / max(most, 1e-9)
-    elif planned < -NEAR_LIMIT * (electric + friction):
-        force = planned * (electric_now + friction) / max(electric + friction, 1e-9)
+    elif planned < -NEAR_LIMIT * both:
+        force = planned * braking_within(limits, tables, friction, v) / max(both, 1e-9)
     elif -electric / NEAR_LIMIT < planned < -NEAR_LIMIT * electric:
         # At the limit of the electric brake too: what it cannot give friction would have to.
         force = planned * electric_now / max(electric, 1e-9)

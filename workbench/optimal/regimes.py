@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench.optimal.profile import WEIGHT, Profile, forces, largest_force
+from workbench.optimal.profile import WEIGHT, Profile, forces, largest_braking, largest_force
 from workbench.optimal.vehicle import Vehicle
 
 REGIMES = ("traction", "cruise", "coast", "brake")
@@ -31,18 +31,22 @@ def time_shares(vehicle: Vehicle, profile: Profile) -> dict[str, float]:
 
 
 def binding(vehicle: Vehicle, profile: Profile) -> str:
-    """In words: the shares of a run's time at the speed limit, at full traction and at full brakes."""
+    """In words: the shares of a run's time at the speed limit, full traction, full brakes and limits of acceleration.
+
+    No moment counts twice, so that they come to no more than the whole.
+    """
     found = forces(vehicle, profile)
     step = np.diff(profile.time_s)
     speed = profile.speed_mps
     at_limit = np.minimum(speed[1:], speed[:-1]) >= FULL * profile.course.limit_mps
     most = largest_force(vehicle.traction, found.speed_mps) @ WEIGHT
-    brakes = largest_force(vehicle.regenerative, found.speed_mps) @ WEIGHT + vehicle.friction_brake_n
+    brakes = largest_braking(vehicle, found.speed_mps) @ WEIGHT
     pull, brake = found.traction_n @ WEIGHT, (found.regenerative_n + found.friction_n) @ WEIGHT
     fast = profile.acceleration_mps2 >= FULL * vehicle.max_acceleration_mps2
     hard = -profile.acceleration_mps2 >= FULL * vehicle.max_deceleration_mps2
-    parts = [("the speed limit", at_limit), ("full traction", (pull >= FULL * most) & ~at_limit),
-             ("the acceleration limit", fast & ~at_limit), ("full brakes", (brake >= FULL * brakes) & ~at_limit),
+    parts = [("the speed limit", at_limit), ("full traction", (pull >= FULL * most) & ~at_limit & ~fast),
+             ("the acceleration limit", fast & ~at_limit),
+             ("full brakes", (brake >= FULL * brakes) & ~at_limit & ~hard),
              ("the deceleration limit", hard & ~at_limit)]
     shares = [(float(step[where].sum() / step.sum()), what) for what, where in parts]
     words = [f"{100 * share:.0f} % of it at {what}" for share, what in sorted(shares, reverse=True) if share >= 0.005]

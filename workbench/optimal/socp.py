@@ -141,6 +141,10 @@ def _solve(vehicle: Vehicle, grid: Grid, asked: Timetable | float, ends_mps: tup
         if limit.force_n > 0:
             _require_limits(program, side, limit, grid, (tau, v_mean, b_mean), (force, speed, mean_time),
                             np.flatnonzero(near))
+    if vehicle.braking_table:
+        most = ForceLimit(max(force_n for _, force_n in vehicle.braking_table), table=vehicle.braking_table)
+        _require_limits(program, brake + grip, most, grid, (tau, v_mean, b_mean), (force, speed, mean_time),
+                        np.flatnonzero(rows.brake))
     if b_1 > 0:  # else the resistance would fall with a speed that the relaxation lets go
         program.require_at_most((1 / np.sqrt(top[free])) * b[free] - v[free])
     comfort = [(sign, program.require_at_most(sign * (b[1:] - b[:-1]) - 2 * limit * h / half))

@@ -41,7 +41,10 @@ class Vehicle:
 
     rotating_fraction: rotating mass as a fraction of mass_kg; it adds inertia and no weight. davis_n: (a, b, c)
     in N, N s/m and N s^2/m^2. regenerative: the electric brake, which returns `regenerative_efficiency` of its work;
-    friction_brake_n: the brake that returns nothing. Limits of the acceleration are infinite where there are none.
+    friction_brake_n: the brake that returns nothing. braking_table: what both brakes together give at most, as the
+    table of a ForceLimit; empty for no such limit. bounded: a train that can do whatever the real one can, where this
+    one can a little less: bounds are proved of it, runs are driven by this one. None where both are the same.
+    Limits of the acceleration are infinite where there are none.
     tunnel_drag: (cross section in m^2, added c in N s^2/m^2) pairs. auxiliary_w: power drawn all the time.
     Raises InputError where the values contradict each other.
     """
@@ -61,6 +64,8 @@ class Vehicle:
     length_m: float = 0.0
     tunnel_drag: tuple[tuple[float, float], ...] = ()
     auxiliary_w: float = 0.0
+    braking_table: tuple[tuple[float, float], ...] = ()
+    bounded: Vehicle | None = None
 
     def __post_init__(self) -> None:
         if not 0 < self.traction_efficiency <= 1 or not 0 <= self.regenerative_efficiency <= 1:
@@ -79,4 +84,10 @@ class Vehicle:
     @property
     def braking_n(self) -> float:
         """Both brakes at standstill."""
-        return self.regenerative.at(0.0) + self.friction_brake_n
+        both = self.regenerative.at(0.0) + self.friction_brake_n
+        return min(both, self.braking_table[0][1]) if self.braking_table else both
+
+    @property
+    def proven(self) -> Vehicle:
+        """The train of which bounds are proved."""
+        return self.bounded or self

@@ -15,7 +15,15 @@ import numpy as np
 
 from workbench.compile.package_kernels import compiled
 from workbench.optimal.course import Array
-from workbench.optimal.force_limits import Limits, compiled_resistance, device_limits, force_in, resistance_numbers
+from workbench.optimal.force_limits import (
+    Limits,
+    Tables,
+    braking_within,
+    compiled_resistance,
+    device_limits,
+    force_in,
+    resistance_numbers,
+)
 from workbench.optimal.profile import Profile
 from workbench.optimal.vehicle import Vehicle
 
@@ -62,7 +70,7 @@ def _against(speed: float, share: float, cell: int, line: Array, drag: Array, a:
 
 
 @compiled(error_model="numpy", _nrt=False)
-def device_forces(v: float, limits: Limits, tables: tuple[Array, Array]) -> tuple[float, float]:
+def device_forces(v: float, limits: Limits, tables: Tables) -> tuple[float, float]:
     """What traction and the electric brake give at a speed, N."""
     most = limits[0][0] if v * limits[0][0] <= limits[0][1] else limits[0][1] / v
     brake = limits[1][0] if v * limits[1][0] <= limits[1][1] else limits[1][1] / v
@@ -75,7 +83,7 @@ def device_forces(v: float, limits: Limits, tables: tuple[Array, Array]) -> tupl
 
 @compiled(error_model="numpy", _nrt=False)
 def _drive(time: Array, position: Array, speed: Array, acceleration: Array, limit: Array, line: Array, drag: Array,
-           numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array],
+           numbers: tuple[float, ...], limits: Limits, tables: Tables,
            step_s: float, lag: Array, slope: Array) -> tuple[float, float, float, float, float, float]:
     """Energy without auxiliaries, drift of position and speed, excess of force and speed, largest correction.
 
@@ -102,11 +110,12 @@ def _drive(time: Array, position: Array, speed: Array, acceleration: Array, limi
                     s_plan = position[k] + (speed[k] + acceleration[k] * t / 2) * t
                     share = min(max((s_plan - position[k]) / (position[k + 1] - position[k]), 0.0), 1.0)
                     planned = inertia * acceleration[k] + _against(v_plan, share, k, line, drag, a, b, c)
-                    plan_most, plan_brake = device_forces(max(v_plan, 0.0), limits, tables)
+                    plan_most = device_forces(max(v_plan, 0.0), limits, tables)[0]
                     if planned > 0:
                         over_force = max(over_force, planned / plan_most - 1.0)
                     else:
-                        over_force = max(over_force, -planned / (plan_brake + friction) - 1.0)
+                        over_force = max(over_force,
+                                         -planned / braking_within(limits, tables, friction, max(v_plan, 0.0)) - 1.0)
                 u = planned
                 # The train: where it really is.
                 at, fast = s + ds, v + dv

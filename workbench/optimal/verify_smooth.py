@@ -8,7 +8,14 @@ import numpy as np
 
 from workbench.compile.package_kernels import compiled
 from workbench.optimal.course import Array, Course
-from workbench.optimal.force_limits import Limits, compiled_resistance, device_limits, resistance_numbers
+from workbench.optimal.force_limits import (
+    Limits,
+    Tables,
+    braking_within,
+    compiled_resistance,
+    device_limits,
+    resistance_numbers,
+)
 from workbench.optimal.smooth_run import SmoothRun
 from workbench.optimal.vehicle import Vehicle
 from workbench.optimal.verify import POSITION_GAIN, SPEED_GAIN, device_forces
@@ -49,7 +56,7 @@ def _at(s: float, section: int, borders: Array) -> int:
 
 @compiled()
 def _drive(breaks: Array, start: Array, borders: Array, line: Array, drag: Array, numbers: tuple[float, ...],
-           limits: Limits, tables: tuple[Array, Array],
+           limits: Limits, tables: Tables,
            step_s: float) -> tuple[float, float, float, float, float]:
     """Energy without auxiliaries, drift of position and speed, excess of force, largest correction.
 
@@ -77,9 +84,10 @@ def _drive(breaks: Array, start: Array, borders: Array, line: Array, drag: Array
                 stands = v_plan <= 1e-9 and abs(a_plan) <= 1e-9
                 resisted = _resisted(at, max(fast, 0.0), here, borders, line, drag, numbers)
                 u = inertia * a_plan + _resisted(s_plan, v_plan, planned, borders, line, drag, numbers)
-                most, brake = device_forces(v_plan, limits, tables)
+                most = device_forces(v_plan, limits, tables)[0]
                 if not stands:  # else the brakes hold the train
-                    over = max(over, u / most - 1.0 if u > 0 else -u / (brake + friction) - 1.0)
+                    over = max(over, u / most - 1.0 if u > 0 else
+                               -u / braking_within(limits, tables, friction, v_plan) - 1.0)
                 push = inertia * (POSITION_GAIN * (s_plan - at) + SPEED_GAIN * (v_plan - fast))
                 u = push + (resisted if stands else u)
                 corrected = max(corrected, abs(push))

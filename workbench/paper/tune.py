@@ -63,9 +63,17 @@ def tune_run(loaded: Loaded, names: list[str], write: bool, workers: int | None,
         ranges = budget.ranges[searched if isinstance(searched, str) else searched[1]]
         words = ", ".join(f"{key} = {value:g}{_binds(value, ranges[key])}" for key, value in tuned.values.items())
         yield f"{words_of(searched)}: cost {tuned.stated:.4g} as stated, {tuned.cost:.4g} tuned: {words}"
+    yield from () if names else _left_as_stated(record, budget)
     if write:
         _write(path, budget, found)
         yield f"written: {path}"
+
+
+def _left_as_stated(record: Any, budget: Any) -> Iterator[str]:
+    """Who enters without ranges, and so as stated beside those that are tuned."""
+    entered = getattr(record, "controllers", None)
+    if isinstance(entered, Mapping) and (left := [name for name in entered if name not in budget.ranges]):
+        yield f"not tuned, since tuning.ranges does not name them: {', '.join(left)}"
 
 
 def _with_tuning(record: Any, budget: Any, runs: int) -> Any:

@@ -66,8 +66,8 @@ class NeuronGrid(SourcedRecord):
 class ControllerSpec(SourcedRecord, json_schema_extra=with_periods_in_schema):
     """One controller of a scenario: which law, its sampling period, its parameters and initial values.
 
-    In a file `periods_s` instead of `period_s` states as many controllers, whose names say the period (`periods.py`).
-    predictor: it is told the actuator's delay, over which the state that it answers is predicted; MPC the lag too.
+    `periods_s` makes as many controllers, whose names say the period. predictor: told the actuator's delay, MPC the
+    lag too. estimates: whether a law's states move by a sample before its command is taken (corrected) or after it.
     """
 
     law: Text

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from workbench.optimal.course import Array
-from workbench.optimal.profile import largest_force
+from workbench.optimal.profile import largest_braking, largest_force
 from workbench.optimal.vehicle import Vehicle
 from workbench.trains.multi_particle import c_0, c_a, c_d, c_k, c_v, m_total
 
@@ -76,6 +76,7 @@ def car_limits(train: CarTrain, speed_mps: Array) -> CarLimits:
     speed = speed_mps[:, None] if speed_mps.ndim == 1 else speed_mps
     share = np.array(train.motors, dtype=float) / sum(train.motors)
     vehicle, even = train.vehicle, np.ones((len(speed), train.cars))
+    friction = np.maximum(largest_braking(vehicle, speed) - largest_force(vehicle.regenerative, speed), 0.0)
     return CarLimits(even * share * largest_force(vehicle.traction, speed),
                      even * share * largest_force(vehicle.regenerative, speed),
-                     even * vehicle.friction_brake_n / train.cars)
+                     even * friction / train.cars)

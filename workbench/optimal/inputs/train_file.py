@@ -32,7 +32,8 @@ class TrainFile(Train):
     max_braking_n is what all brakes give at standstill, regenerative_force_n the part of it that is electric; the
     remainder returns nothing. max_power_w limits traction. traction_curve: the largest force between its points (a
     motor's), constant beyond them, beside max_traction_n and max_power_w. adhesion: what wheels and rail pass on at
-    most, of traction and of both brakes together. cars: of a train of several cars. etcs: how it brakes, for `--etcs`.
+    most, of traction and of both brakes together; runs keep below that curve, bounds hold of all that it allows.
+    cars: of a train of several cars. etcs: how it brakes, for `--etcs`.
     """
 
     rotating_fraction: NonNegative = 0.0
@@ -67,10 +68,7 @@ def vehicle(train: TrainFile, name: str) -> Vehicle:
     traction = ForceLimit(train.max_traction_n, _or_none(train.max_power_w), curve)
     electric = ForceLimit(train.regenerative_force_n, _or_none(train.regenerative_power_w))
     friction = train.max_braking_n - train.regenerative_force_n
-    if train.adhesion is not None:
-        traction, electric = with_adhesion(train.adhesion, train.mass_kg, _or_none(train.max_speed_mps), traction,
-                                           electric, friction)
-    return plausible(Vehicle(
+    dry = Vehicle(
         name=name, mass_kg=train.mass_kg, davis_n=train.davis_newton,
         traction=traction, regenerative=electric, friction_brake_n=friction,
         rotating_fraction=train.rotating_fraction,
@@ -81,7 +79,8 @@ def vehicle(train: TrainFile, name: str) -> Vehicle:
         regenerative_efficiency=train.regenerative_efficiency,
         length_m=train.length_m or 0.0,
         auxiliary_w=train.auxiliary_w,
-    ))
+    )
+    return plausible(dry if train.adhesion is None else with_adhesion(train.adhesion, dry))
 
 
 def _or_none(limit: float | None) -> float:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
+import numpy as np
+
 from workbench.errors import CompileError, InputError
 from workbench.files.numbers import number, unit_text
 from workbench.paper.cells import Cell, Column, Phrase, Quantity
@@ -16,8 +18,8 @@ from workbench.paper.study import Progress, StudyKind
 from workbench.simulate.plants.run import PlantRun
 from workbench.simulate.plants.run import run as run_plant
 from workbench.simulate.plants.step_length import shortest_time
-from workbench.systems.setting import Setting
-from workbench.systems.signals import Constant
+from workbench.systems.setting import INSTANTS, Setting
+from workbench.systems.signals import Constant, signals_at
 from workbench.tasks.handing_out import results_of
 
 SLIGHT = 0.01  # of what lies between the limits of a state: further beyond them a run does not keep them
@@ -100,6 +102,7 @@ def _findings(setting: Setting, runs: Sequence[PlantRun]) -> Iterator[str]:
     for run in runs:
         if run.ahead_s and moving:
             yield f"{run.name} is told the references {number(run.ahead_s)} s ahead; laws are told what they are."
+        yield from _taken_for_zero(setting, run)
         if run.failed:
             yield f"{run.failed}."
         if beyond := _beyond(setting, run):
@@ -111,6 +114,18 @@ def _findings(setting: Setting, runs: Sequence[PlantRun]) -> Iterator[str]:
             yield (f"A step of {run.name} took {number(run.step_us / 1e6)} s here, longer than its period of "
                    f"{number(run.period_s)} s: on this computer it would not keep up.")
         yield from _inaccurate(setting, run)
+
+
+def _taken_for_zero(setting: Setting, run: PlantRun) -> Iterator[str]:
+    """That a controller plans without a disturbance which is there all along: a feed's concentration, a load."""
+    for name in run.at_zero:
+        values = signals_at({name: setting.signals[name]}, np.linspace(0.0, setting.duration_s, INSTANTS))[name][0]
+        least, most = float(values.min()), float(values.max())
+        if least > 0 or most < 0:
+            there = number(least) if least == most else f"{number(least)} to {number(most)}"
+            unit = next((f" {unit_text(u)}" for d, u in setting.plant.units.items() if str(d) == name), "")
+            yield (f"{run.name} plans with disturbance {name} at zero, where it is {there}{unit} all along: it would "
+                   f"find it by observer = {{ {name} = ... }}, or what is known of it is a parameter.")
 
 
 def _beyond(setting: Setting, run: PlantRun) -> list[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -33,6 +34,7 @@ from workbench.tasks.versions import versions
 
 CSV_NAME = "sweep.csv"
 REMEDY = "name another --out"
+WHOLE = 1e-6  # of a period: by so little a time may miss a whole number of them
 # On which modules of the package a row depends.
 SIMULATING = ("files/*.py", "model/*.py", "systems/*.py", "compile/*.py", "mpc/*.py", "simulate/*.py",
               "simulate/plants/*.py", "paper/plants/*.py")
@@ -168,7 +170,10 @@ def _store(study: LocatedPlantStudy, seed: int, out: Path | None, resume: bool, 
 
 
 def _short(study: LocatedPlantStudy, name: str) -> Any:
-    return study.setting.varied(duration_s=study.entrants()[name].period_s, log_every_s=None)
+    """The study's setting for as few periods as let delayed commands and measurements arrive, which a run demands."""
+    setting, period = study.setting, study.entrants()[name].period_s
+    latest = max((*setting.late_s.values(), *setting.delay_s.values()), default=0.0)
+    return setting.varied(duration_s=max(1, math.ceil(latest / period - WHOLE)) * period, log_every_s=None)
 
 
 def row_columns(study: LocatedPlantStudy) -> dict[str, str]:

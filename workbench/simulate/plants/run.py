@@ -99,7 +99,7 @@ class PlantRun:
     microseconds of a control step; of a law with the plant's integration, of a sampled controller alone, the 99th
     percentile of which is step_us_p99. fallbacks: samples at which a sampled controller had to do without its solver.
     events: in the order in which they happened. period_s: how often it commands. ahead_s: how far ahead it is told what
-    the references will be; a law is told what they are.
+    the references will be; a law is told what they are. at_zero: disturbances that a sampled controller takes for zero.
     """
 
     name: str
@@ -114,6 +114,7 @@ class PlantRun:
     fallbacks: int = 0
     events: tuple[Happened, ...] = ()
     ahead_s: float = 0.0
+    at_zero: tuple[str, ...] = ()
 
     @cached_property
     def data(self) -> dict[str, Array]:
@@ -146,15 +147,17 @@ def run(setting: Setting, entrant: Entrant, nominal: Mapping[str, float] | None 
         noise = np.random.default_rng(setting.seed).normal(size=noise.shape) * deviations
     loop = _Loop(entrant.name, setting, found, arrays, every, noise, late)
     if law is not None and setting.integrator == "rk4":
-        status, done, taken, fallbacks, ahead_s = *loop.compiled_law(samples, states, values), 0, 0.0
+        status, done, taken, fallbacks, ahead_s, at_zero = *loop.compiled_law(samples, states, values), 0, 0.0, ()
     else:
         # A controller is built with what it believes: the truth is not its to know.
         own = _Interpreted(found, entrant.period_s, states, values, arrays) if law is not None else (
             _built(entrant, setting.varied(parameters=believed)))
         status, done, taken = loop.sampled(samples, own)
         fallbacks, ahead_s = int(getattr(own, "fallbacks", 0)), float(getattr(own, "ahead_s", 0.0))
+        at_zero = tuple(getattr(own, "at_zero", ()))
     arrays.told[:] = states  # in the log's last row, as in all others, what the next command would be taken from
-    return replace(_told(setting, entrant, found, arrays, status, done, taken), fallbacks=fallbacks, ahead_s=ahead_s)
+    return replace(_told(setting, entrant, found, arrays, status, done, taken), fallbacks=fallbacks, ahead_s=ahead_s,
+                   at_zero=at_zero)
 
 
 def _built(entrant: Entrant, setting: Setting) -> SampledController:
