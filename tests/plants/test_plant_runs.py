@@ -115,9 +115,17 @@ def plain(period, late, delay, lag_s):
 def test_metrics_are_what_they_say():
     metrics = (Metric("way", "integral", sp.Abs(v)), Metric("mean", "mean", x), Metric("end", "terminal", x),
                Metric("low", "smallest", x), Metric("rms", "root mean square", v))
+    above = x - sp.Rational(1, 4)
+    metrics += (Metric("left", "last above zero", above), Metric("forward", "last above zero", -v),
+                Metric("never", "last above zero", x - 2),
+                Metric("nowhere", "last above zero", sp.log(x - sp.Rational(1, 2))))
     setting = Setting(CART, 2.0, initial={"x": 1.0, "v": -2.0}, references={"r": Ramp(slope_per_s=1.0)},
                       tracks={"x": "r"}, metrics=metrics)
     found = run(setting, Entrant("push", 0.5, StateLaw("push", {u: 2})))
+    # x is above 1/4 until 1/2 and again from 3/2 on; v is below 0 until 1.
+    assert found.metrics["left"] == 2.0 and found.metrics["never"] == 0.0 and found.metrics["nowhere"] is None
+    assert found.metrics["forward"] == pytest.approx(1.0, abs=1.1 * setting.step_s)
+    assert next(metric.unit for metric in setting.every_metric if metric.id == "left") == "s"
     # x = 1 - 2 t + t^2: down to 0 at t = 1, back to 1 at t = 2.
     assert {k: found.metrics[k] for k in ("mean", "end", "low", "rms", "u_rms")} == pytest.approx(
         {"mean": 1 / 3, "end": 1.0, "low": 0.0, "rms": math.sqrt(4 / 3), "u_rms": 2.0}, abs=1e-9)

@@ -10,6 +10,7 @@ from typing import Literal, get_args
 import numpy as np
 
 from workbench.model.law import time
+from workbench.systems.metric import UNPLANNED
 from workbench.systems.setting import Setting, first_inputs
 from workbench.systems.symbols import is_finite, named_values, plain, written
 
@@ -122,8 +123,8 @@ class PlantMpcValues:
                                      f"{', '.join(inputs) or 'none'}")
         metrics = {metric.id: metric.measure for metric in setting.every_metric}
         for name, weight in self.objective.items():
-            if metrics.get(name) in (None, "largest", "smallest") or not is_finite(weight):
-                known = [one for one, measure in metrics.items() if measure not in ("largest", "smallest")]
+            if metrics.get(name) in (None, *UNPLANNED) or not is_finite(weight):
+                known = [one for one, measure in metrics.items() if measure not in UNPLANNED]
                 raise ValueError(f"objective.{name} = {written(weight)}: give a number for a metric that is integrated "
                                  f"or taken at the end: {', '.join(known) or 'none is stated'}")
 

@@ -1,4 +1,5 @@
-"""What a run is measured by: an expression, integrated over time, taken at the end, or its extreme."""
+"""What a run is measured by: an expression, integrated over time, taken at the end, its extreme, or when it was last
+above zero."""
 
 from __future__ import annotations
 
@@ -7,9 +8,12 @@ from typing import Any, Literal, get_args
 
 import sympy as sp
 
+from workbench.model.law import time
 from workbench.systems.symbols import expression
 
-Measure = Literal["integral", "mean", "root mean square", "terminal", "largest", "smallest"]
+Measure = Literal["integral", "mean", "root mean square", "terminal", "largest", "smallest", "last above zero"]
+# What jumps or sits at one instant: no plan is made by it.
+UNPLANNED = ("largest", "smallest", "last above zero")
 
 
 @dataclass(frozen=True)
@@ -17,8 +21,9 @@ class Metric:
     """expression: over a plant's states, outputs, inputs as they act, disturbances, parameters, references and time.
 
     measure: its integral over time (integrated with the plant, by the same steps), its mean, the root of the mean of
-    its square, its value at the end, or its largest or smallest value at any plant step. Raises ValueError for what is
-    none.
+    its square, its value at the end, its largest or smallest value at any plant step, or the time in s of the last
+    plant step at which it is above zero, 0 where it never is: an error has settled within 0.02 at the last above zero
+    of `Abs(x - x_d) - 0.02`, unless that is the end of the run. Raises ValueError for what is none.
     """
 
     id: str
@@ -32,6 +37,8 @@ class Metric:
             raise ValueError(f"metric '{self.id}': measure {self.measure!r} is not known: it is one of "
                              f"{', '.join(get_args(Measure))}")
         object.__setattr__(self, "expression", expression(self.expression, f"metric '{self.id}'"))
+        if self.measure == "last above zero" and not self.unit:
+            object.__setattr__(self, "unit", "s")
 
     @property
     def integrand(self) -> sp.Expr | None:
@@ -39,3 +46,10 @@ class Metric:
         if self.measure == "root mean square":
             return self.expression**2
         return self.expression if self.measure in ("integral", "mean") else None
+
+    @property
+    def watched(self) -> sp.Expr | None:
+        """Of what the largest value at any plant step is kept; None where of nothing."""
+        if self.measure == "last above zero":
+            return sp.Piecewise((time, self.expression > 0), (-sp.Abs(self.expression), True))  # no number stays none
+        return {"largest": self.expression, "smallest": -self.expression}.get(self.measure)

@@ -40,7 +40,7 @@ class Compiled:
     """A compiled plant and law, the loop that calls them, and how metrics are taken.
 
     loop: compiled once for all plants; plant and law: C functions, as it calls them; integrands and extremes: of the
-    metrics that are integrated, and that are the largest or smallest value.
+    metrics that are integrated, and of which a largest value is kept.
     """
 
     loop: ModuleType
@@ -71,8 +71,7 @@ def compiled(setting: Setting, law: StateLaw | None) -> Compiled:
     """
     metrics = setting.every_metric
     integrands = tuple(m.integrand for m in metrics if m.integrand is not None)
-    extremes = tuple(m.expression if m.measure == "largest" else -m.expression for m in metrics
-                     if m.measure in ("largest", "smallest"))
+    extremes = tuple(m.watched for m in metrics if m.watched is not None)
     try:
         plant = _plant(_Subject(setting), integrands, extremes)
         called = None if law is None else _law(_Subject(setting, law))

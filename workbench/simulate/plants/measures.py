@@ -43,6 +43,8 @@ def metrics_of(setting: Setting, a: Arrays, t: float, whole: bool) -> dict[str, 
                 found[metric.id] = max(float(next(extremes)), float(value))
             case "smallest":
                 found[metric.id] = min(-float(next(extremes)), float(value))
+            case "last above zero":
+                found[metric.id] = max(float(next(extremes)), t if value > 0 else 0.0 * abs(value))
             case _:
                 found[metric.id] = float(value)
     return {name: value if value is not None and math.isfinite(value) else None for name, value in found.items()}
