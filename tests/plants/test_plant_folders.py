@@ -160,7 +160,7 @@ def test_a_sweeps_table_tells_what_is_farthest_from_zero_and_the_least_of_the_sm
     monkeypatch.setattr(row_store, "BLOCK", 2)
     study = load(mine).study
     study.__dict__["setting"] = study.setting.varied(metrics=(Metric("room", "smallest", study.the_plant.states[0]),))
-    rest = dict.fromkeys(("x_error_rms", "x_error_largest", "u_rms"), 1.0)
+    rest = dict.fromkeys(("x_error_rms", "x_error_largest", "u_rms", "u_variation", "u_saturated"), 1.0)
     rows = [{"room": room, "x_error_final": error, "failed": failed, **rest} for room, error, failed in (
         (0.5, 0.1, None), (None, None, "diverges"), (0.2, -0.3, None))]
     store = row_store.RowStore()

@@ -143,6 +143,14 @@ def test_a_step_acts_from_its_instant_on_and_limits_hold():
     assert found.column("u").tolist() == [0.0, 0.0, 4.0, 4.0, 4.0]
     assert found.column("x")[-1] == pytest.approx(2.0, abs=1e-12)
     assert found.metrics["x_limit_excess"] == pytest.approx(0.5, abs=1e-12)
+    # Of 20 commands ten ask for 9 and get 4; what is called by the sample counts alike.
+    assert found.metrics["u_variation"] == pytest.approx(2.0) and found.metrics["u_saturated"] == 0.5
+    by_solver = run(setting.varied(plant=plant, integrator="radau"), Entrant("law", 0.1, StateLaw(
+        "law", {u: r.value}, references=(r,))))
+    assert {k: by_solver.metrics[k] for k in ("u_variation", "u_saturated")} == {
+        k: found.metrics[k] for k in ("u_variation", "u_saturated")}
+    with pytest.raises(ValueError, match="'chatter': measure 'variation' is of an input .* name one of u"):
+        setting.varied(metrics=(Metric("chatter", "variation", 2 * u),))
 
 
 def test_who_looks_ahead_sees_a_step_at_its_sample_whatever_rounding_says():

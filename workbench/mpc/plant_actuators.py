@@ -10,7 +10,7 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from workbench.systems.metric import Metric
+from workbench.systems.metric import COMMANDED, Metric
 from workbench.systems.setting import Setting, first_inputs
 
 Array = NDArray[np.float64]
@@ -33,7 +33,8 @@ def with_lags(setting: Setting) -> Setting:
         plant, states=(*plant.states, *acting.values()), rates=() if plant.updates else every,
         updates=every if plant.updates else (), domain=[e.xreplace(acting) for e in plant.domain], events=())
     # What metrics say of an input is of the input as it acts.
-    metrics = [Metric(m.id, m.measure, m.expression.xreplace(acting), m.unit, m.title) for m in setting.every_metric]
+    metrics = [Metric(m.id, m.measure, m.expression.xreplace(acting), m.unit, m.title) for m in setting.every_metric
+               if m.measure not in COMMANDED]
     return setting.varied(plant=told, metrics=tuple(metrics), lag_s={}, initial={
         **setting.initial, **{str(acting[u]): float(first_inputs(setting)[plant.inputs.index(u)]) for u in lags}})
 

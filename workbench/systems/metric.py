@@ -11,9 +11,12 @@ import sympy as sp
 from workbench.model.law import time
 from workbench.systems.symbols import expression
 
-Measure = Literal["integral", "mean", "root mean square", "terminal", "largest", "smallest", "last above zero"]
+Measure = Literal["integral", "mean", "root mean square", "terminal", "largest", "smallest", "last above zero",
+                  "variation", "saturated"]
+# Of the commands themselves, before delay and lag.
+COMMANDED = ("variation", "saturated")
 # What jumps or sits at one instant: no plan is made by it.
-UNPLANNED = ("largest", "smallest", "last above zero")
+UNPLANNED = ("largest", "smallest", "last above zero", *COMMANDED)
 
 
 @dataclass(frozen=True)
@@ -23,7 +26,9 @@ class Metric:
     measure: its integral over time (integrated with the plant, by the same steps), its mean, the root of the mean of
     its square, its value at the end, its largest or smallest value at any plant step, or the time in s of the last
     plant step at which it is above zero, 0 where it never is: an error has settled within 0.02 at the last above zero
-    of `Abs(x - x_d) - 0.02`, unless that is the end of the run. Raises ValueError for what is none.
+    of `Abs(x - x_d) - 0.02`, unless that is the end of the run. Of an input alone, as it is commanded: its variation,
+    the sizes of its changes from sample to sample, summed, each second; the share of samples at which it is saturated,
+    at a limit of it or asked beyond. Raises ValueError for what is none.
     """
 
     id: str

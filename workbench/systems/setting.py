@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from workbench.systems.declared import contradicted, sign_margins
 from workbench.systems.law import Reference
-from workbench.systems.metric import Metric
+from workbench.systems.metric import COMMANDED, Metric
 from workbench.systems.parameter import checked_value
 from workbench.systems.plant import Plant
 from workbench.systems.signals import AnySignal, Constant, Step, signal_of, signals_at
@@ -106,6 +106,10 @@ class Setting:
         object.__setattr__(self, "metrics", tuple(
             replace(one, expression=one.expression.xreplace(seen)) for one in self.metrics))
         require_known({f"metric '{m.id}'": m.expression for m in self.metrics}, self.symbols, f"plant '{plant.id}'")
+        for metric in self.metrics:
+            if metric.measure in COMMANDED and metric.expression not in plant.inputs:
+                raise ValueError(f"metric '{metric.id}': measure '{metric.measure}' is of an input as it is commanded: "
+                                 f"name one of {', '.join(map(str, plant.inputs)) or 'none'}")
 
     def _check_times(self) -> None:
         for name in ("duration_s", "step_s"):
@@ -231,6 +235,12 @@ class Setting:
                       Metric(f"{name}_error_final", "terminal", error, unit, f"{name} error final")]
         found += [Metric(f"{symbol}_rms", "root mean square", symbol, plant.units.get(symbol, ""), f"{symbol} RMS")
                   for symbol in plant.inputs]
+        for symbol in plant.inputs:
+            unit = plant.units.get(symbol, "")
+            found.append(Metric(f"{symbol}_variation", "variation", symbol, f"{unit}/s" if unit else "1/s",
+                                f"{symbol} variation"))
+            if any(map(math.isfinite, plant.input_limits.get(symbol, ()))):
+                found.append(Metric(f"{symbol}_saturated", "saturated", symbol, "", f"{symbol} saturated"))
         for symbol, (low, high) in plant.state_limits.items():
             sides = [side for bound, side in ((low, low - symbol), (high, symbol - high)) if math.isfinite(bound)]
             found.append(Metric(f"{symbol}_limit_excess", "largest", sp.Max(0, *sides), plant.units.get(symbol, ""),

@@ -43,6 +43,11 @@ def metrics_of(setting: Setting, a: Arrays, t: float, whole: bool) -> dict[str, 
                 found[metric.id] = max(float(next(extremes)), float(value))
             case "smallest":
                 found[metric.id] = min(-float(next(extremes)), float(value))
+            case "variation":
+                found[metric.id] = float(a.commanded[1, setting.plant.inputs.index(metric.expression)]) / t
+            case "saturated":
+                of_all, _, at_limit = a.commanded[:, setting.plant.inputs.index(metric.expression)]
+                found[metric.id] = float(at_limit / of_all)
             case "last above zero":
                 found[metric.id] = max(float(next(extremes)), t if value > 0 else 0.0 * abs(value))
             case _:

@@ -59,12 +59,19 @@ def signal_values(t, begin, table, pieces, out):
             out[at + 3] = 6.0 * c3
 
 
-def limited(command, lower, upper, out):
-    """The command within its limits; whether every number of it is finite."""
+def limited(command, lower, upper, out, commanded):
+    """The command within its limits; whether every number of it is finite. commanded, a row each: how many commands
+    there were, the sizes of their changes, summed, and how many were at a limit or beyond."""
     for i in range(command.shape[0]):
         if not math.isfinite(command[i]):
             return False
-        out[i] = min(max(command[i], lower[i]), upper[i])
+        within = min(max(command[i], lower[i]), upper[i])
+        if commanded[0, i] > 0.0:
+            commanded[1, i] += abs(within - out[i])
+        if command[i] <= lower[i] or command[i] >= upper[i]:
+            commanded[2, i] += 1.0
+        commanded[0, i] += 1.0
+        out[i] = within
     return True
 
 
@@ -179,7 +186,7 @@ def record(t, states, x, u, wanted, s, law_states, log, row):
 def closed_loop(plant, law, samples, every, h, states, x, wanted, u, u_middle, u_end, delays, ring, fade_half,
                 fade_full, lower, upper, table, pieces, s, s_middle, s_end, p, extremes, values, sides, crossing,
                 slopes, event_log, event_count, moved, inputs, signals, log, log_every, told, measured, noise, late,
-                seen, law_states, law_parameters, command):
+                seen, law_states, law_parameters, command, commanded):
     """Samples of `every` plant steps each: measure, command, hold; (status, plant steps done)."""
     period, kept = every * h, seen.shape[0]
     for sample in range(samples):
@@ -196,7 +203,7 @@ def closed_loop(plant, law, samples, every, h, states, x, wanted, u, u_middle, u
             told[i] = law_states[i]
         if not law_answer(law, t, period, measured, s, law_states, law_parameters, command) > 0.0:
             return 4, sample * every
-        if not limited(command, lower, upper, wanted):
+        if not limited(command, lower, upper, wanted, commanded):
             return 3, sample * every
         status, done = advance(plant, sample * every, every, h, states, x, wanted, u, u_middle, u_end, delays, ring,
                                fade_half, fade_full, table, pieces, s, s_middle, s_end, p, extremes, values, sides,

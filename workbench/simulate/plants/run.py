@@ -201,7 +201,8 @@ class _Loop:
             found: tuple[int, int] = self.found.loop.closed_loop(
                 self.found.plant, self.found.law, count, self.every, self.h, self.states, a.x, a.wanted, a.u,
                 a.u_middle, a.u_end, a.delays, a.ring, a.fade_half, a.fade_full, *self.limits, *a.for_signals(), a.log,
-                a.log_every, a.told, self.measured, self.noise, self.late, self.seen, states, values, command)
+                a.log_every, a.told, self.measured, self.noise, self.late, self.seen, states, values, command,
+                a.commanded)
             return found
 
         go(0)  # so that loading the code is not timed
@@ -224,7 +225,7 @@ class _Loop:
             taken[sample] = (clock.perf_counter() - before) * 1e6
             if isinstance(controller, _Interpreted) and controller.outside:
                 return LAW_OUTSIDE, first, taken[:sample + 1]
-            if not loop.limited(wanted, *self.limits, a.wanted):
+            if not loop.limited(wanted, *self.limits, a.wanted, a.commanded):
                 return NO_COMMAND, first, taken[:sample + 1]
             if self.setting.integrator == "rk4":
                 status, done = loop.advance(plant, first, self.every, self.h, self.states, *a.for_advance())
