@@ -149,7 +149,7 @@ def test_a_step_acts_from_its_instant_on_and_limits_hold():
         "law", {u: r.value}, references=(r,))))
     assert {k: by_solver.metrics[k] for k in ("u_variation", "u_saturated")} == {
         k: found.metrics[k] for k in ("u_variation", "u_saturated")}
-    with pytest.raises(ValueError, match="'chatter': measure 'variation' is of an input .* name one of u"):
+    with pytest.raises(ValueError, match=r"'chatter': measure 'variation' is of an input .* name one of u"):
         setting.varied(metrics=(Metric("chatter", "variation", 2 * u),))
 
 

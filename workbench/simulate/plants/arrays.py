@@ -185,8 +185,8 @@ def arrays_of(setting: Setting, found: Compiled, law_states: Array) -> Arrays:
     sides = np.array([(0.0, *event.sides, 0.0) for event in plant.events]).reshape(count, 4)
     return Arrays(
         x=x, wanted=np.zeros(m), commanded=np.zeros((3, m)), u=first.copy(), u_middle=np.zeros(m), u_end=np.zeros(m),
-        delays=delays, ring=np.tile(first, (int(delays.max(initial=0)) + 1, 1)), fade_half=half, fade_full=full, table=table,
-        pieces=pieces,
+        delays=delays, ring=np.tile(first, (int(delays.max(initial=0)) + 1, 1)), fade_half=half, fade_full=full,
+        table=table, pieces=pieces,
         s=np.zeros(size), s_middle=np.zeros(size), s_end=np.zeros(size),
         p=np.array([*setting.parameters.values()], dtype=float), extremes=np.full(len(found.extremes), -math.inf),
         values=np.zeros(len(found.extremes)), sides=sides, crossing=np.zeros(count), slopes=np.zeros(count),
