@@ -48,7 +48,7 @@ def _short(expr: sp.Expr) -> str:
 
 def _expression(part: Any) -> sp.Expr | None:
     try:
-        found = sp.sympify(part)
+        found = sp.sympify(part, strict=True)
     except (sp.SympifyError, TypeError):
         return None
     return found if isinstance(found, sp.Expr) else None
