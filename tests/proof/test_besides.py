@@ -43,6 +43,18 @@ NARROWER = {
         (greater(z, 0),), tuple(r.subs({z_declared: z}) for r in shown))), ("z > 0 (1)",)),
     "rates of another flow": ((lambda _: Goal((at_most(D(x**2), 0),), flow={x: -x}), lambda shown: Goal(
         (at_most(D(x**2), 1),), shown, flow={x: x})), ("rates are as in (1)",)),
+    "of a rate that is derived again": ((lambda _: Goal((at_most(D(D(x)), 0),), flow={x: y, y: sp.S.NegativeOne}),
+        lambda shown: Goal((at_most(z, 0),), shown, flow={x: y, y: z})), ("rates are as in (1)",)),
+    "of a letter that stands in the rates": ((lambda _: Goal((at_most(D(x**2), 0),), (at_least(z, 0),), {x: -z * x}),
+        lambda shown: Goal((at_most(D(x**4), 0),), shown, {x: -z * x})), ("z >= 0 (1)",)),
+    "of an input": ((lambda _: Goal((at_most(D(x**2), 0),), (at_most(x * y, 0),), {x: y - x}, inputs=(y,)),
+        lambda shown: Goal((at_most(D(x**4), 0),), shown, {x: y - x}, inputs=(y,))), ("x*y <= 0 (1)",)),
+    "of another motion": ((lambda _: Goal(
+        (at_most(x**2, 0),), flow={x: -x}, initial={x: sp.S.Zero}, decreasing=x**2),
+        lambda shown: Goal((equal(D(x), 0),), shown, {x: -3 * x})), ("rates are as in (1)",)),
+    "of another start": ((lambda _: Goal(
+        (at_most(x**2, 0),), flow={x: -x}, initial={x: sp.S.Zero}, decreasing=x**2),
+        lambda shown: Goal((at_most(x, y**2),), shown, {x: -x}, initial={x: -y**2})), ("initial values are as in (1)",)),
     "what always holds": ((lambda _: Goal(
         (at_most(x, 0),), flow={x: y}, inputs=(y,), initial={x: sp.S.Zero}, always=(at_most(y, 0),), decreasing=x),
         lambda shown: Goal((at_most(x + y**2, y**2),), shown)), ("y <= 0 (1)",)),
