@@ -54,7 +54,8 @@ NARROWER = {
         lambda shown: Goal((equal(D(x), 0),), shown, {x: -3 * x})), ("rates are as in (1)",)),
     "of another start": ((lambda _: Goal(
         (at_most(x**2, 0),), flow={x: -x}, initial={x: sp.S.Zero}, decreasing=x**2),
-        lambda shown: Goal((at_most(x, y**2),), shown, {x: -x}, initial={x: -y**2})), ("initial values are as in (1)",)),
+        lambda shown: Goal((at_most(x, y**2),), shown, {x: -x}, initial={x: -y**2})),
+        ("initial values are as in (1)",)),
     "what always holds": ((lambda _: Goal(
         (at_most(x, 0),), flow={x: y}, inputs=(y,), initial={x: sp.S.Zero}, always=(at_most(y, 0),), decreasing=x),
         lambda shown: Goal((at_most(x + y**2, y**2),), shown)), ("y <= 0 (1)",)),

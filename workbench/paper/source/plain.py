@@ -21,6 +21,13 @@ _NUMBERS = narrowing.words_of("""
     real reals number numbers scalar scalars constant constants gain gains parameter parameters coefficient coefficients
     integer integers
 """)
+# Of what is described so not every value is meant.
+_CHOSEN = narrowing.words_of("""
+    suitable appropriate adequate proper stabilizing stabilising optimal ideal critical solution solutions maximum
+    minimum maximal minimal bound bounds limit limits least greatest largest smallest margin root roots eigenvalue
+    supremum infimum sufficient sufficiently enough
+""")
+_ENDS = narrowing.words_of("and where with which while that for in")
 _BE = ("is", "are", "denotes", "denote", "represents", "represent", "stands", "being")
 _BETWEEN = re.compile(r"[\s=<>,;()\[\]|+]+|\\[a-z]*(?:le|ge|in|to|ne|frac|cdot)[a-z]*(?![A-Za-z])")
 
@@ -65,6 +72,34 @@ def described(words: Sequence[Word], classes: Sequence[str]) -> tuple[tuple[str,
             found[place] = "quantity"
             places.add(place)
     return tuple(found), frozenset(places)
+
+
+def chosen(words: Sequence[Word], classes: Sequence[str], told: Collection[int]) -> frozenset[str]:
+    """The letters that a sentence describes as numbers of some values alone, as `a sufficiently large constant`, `a gain
+    to be designed` or `the bound of $d$`; told: the places of its words that are not understood."""
+    found: set[str] = set()
+    for place, word in enumerate(words):
+        behind = _run(classes, place + 2) if word.kind == "math" and classes[place + 1:place + 2] and (
+            classes[place + 1] in ("be", *_BE)) else range(0)
+        start = place
+        while start and words[start - 1].kind == "word" and classes[start - 1] not in _ENDS:
+            start -= 1
+        near = {*classes[behind.start:behind.stop]}
+        if word.kind == "math":
+            near |= {*classes[start:place]} - {"ideal"}  # whose matching conditions are stated
+        unclear = bool(_NUMBERS & {*classes[behind.start:behind.stop]}) and not told.isdisjoint(behind)
+        later = any(classes[at:at + 2] == ["to", "be"] for at in behind)
+        if near & _CHOSEN or unclear or later:
+            found |= {*letters_within(word.text)}
+    return frozenset(found)
+
+
+def _run(classes: Sequence[str], start: int) -> range:
+    """The places of the words from one on up to the end of what may describe a letter."""
+    end = start
+    while end < len(classes) and classes[end].isalpha() and classes[end] not in _ENDS:
+        end += 1
+    return range(start, end)
 
 
 def _phrase(classes: Sequence[str], start: int, phrase: Collection[str]) -> list[str]:
