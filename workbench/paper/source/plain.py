@@ -74,9 +74,9 @@ def described(words: Sequence[Word], classes: Sequence[str]) -> tuple[tuple[str,
     return tuple(found), frozenset(places)
 
 
-def chosen(words: Sequence[Word], classes: Sequence[str], told: Collection[int]) -> frozenset[str]:
-    """The letters that a sentence describes as numbers of some values alone, as `a sufficiently large constant`, `a gain
-    to be designed` or `the bound of $d$`; told: the places of its words that are not understood."""
+def chosen(words: Sequence[Word], classes: Sequence[str], told: frozenset[int]) -> frozenset[str]:
+    """The letters that a sentence describes as numbers of some values alone, as `a sufficiently large constant`, `a
+    gain to be designed` or `the bound of $d$`; told: the places of its words that are not understood."""
     found: set[str] = set()
     for place, word in enumerate(words):
         behind = _run(classes, place + 2) if word.kind == "math" and classes[place + 1:place + 2] and (

@@ -83,11 +83,10 @@ class Text(SaidText):
             signed |= {letter for fact in said.facts for letter in signed_by_words(fact)}
             if (restricted | supposed | differs) & {*letters} or EVERYTHING in restricted:
                 doubts.append(self._told(before))
-        doubts += [self._told(place) for place in self._valued(letters)]
+        doubts += [self._told(place) for place in (*self._valued(letters), *self._followed(at))]
         last = self.readings[at - 1] if at else reading
         if not last.shown and not last.facts and of_a_motion(self.passages.sentences[at - 1].words):
             doubts.append(self._told(at - 1))  # the loop is stable, hence some number is negative
-        doubts += [self._told(place) for place in self._followed(at)]
         named = {letter: self.called.get(letter, []) for letter in letters}
         natural = {letter: self._told(place) for letter, one in named.items() for place, name in one
                    if signed_by_nature(name)}
@@ -105,8 +104,8 @@ class Text(SaidText):
                         frozenset(letters), tuple(self._elsewhere(display, letters, called)), given, natural)
 
     def _followed(self, at: int) -> Iterator[int]:
-        """The sentence before one that begins with `hence` or `then`, and before those that it follows from in turn, where what
-        that claims holds for some values alone."""
+        """The sentence before one that begins with `hence` or `then`, and before those that it follows from in turn,
+        where what that claims holds for some values alone."""
         while at and self.passages.sentences[at].words[0].text in _FOLLOWS | {"then"}:
             at -= 1
             if self.readings[at].tied:
