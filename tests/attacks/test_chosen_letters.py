@@ -6,8 +6,8 @@ from short_papers import HEAD
 from workbench.paper.source.folder import write_from_source
 
 PLANT = r"""Consider the system \begin{equation} \dot x = a x + u, \end{equation} where $x\in\mathbb{R}$ is the state,
-$u$ is the input and $a$ is a constant. The control law is \begin{equation} u = -k x[[law]]. \end{equation} [[said]] Let $V =
-\frac12 x^2$. """
+$u$ is the input and $a$ is a constant. The control law is \begin{equation} u = -k x[[law]]. \end{equation} [[said]]
+Let $V = \frac12 x^2$. """
 LINE = r"Then \begin{equation} \dot V \le 0. \tag{T} \end{equation}"
 WHERE = tuple(f"where $k>0$ is {what}." for what in (
     "a sufficiently large constant", "a large constant", "a suitable constant", "a gain to be chosen",
