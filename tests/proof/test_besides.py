@@ -1,10 +1,12 @@
 """What a proof takes of a premise beyond what that shows is told: the premise's own assumptions, signs and rates."""
 
+from fractions import Fraction
+
 import pytest
 import sympy as sp
 
 from workbench.errors import ClaimError
-from workbench.proof.claim import D, Goal, at_least, at_most, equal, greater
+from workbench.proof.claim import D, Goal, at_least, at_most, equal, greater, less
 from workbench.proof.decide.engine import decide_all
 from workbench.proof.paper import Paper
 
@@ -130,3 +132,17 @@ def test_a_claim_names_what_it_takes():
 
 def test_what_a_premise_takes_of_its_own_needs_no_name():
     assert judged(beyond_one, everywhere, lambda shown: Goal((at_least(2 * x**2, 1),), shown))[-1].verdict == "proved"
+
+
+def test_a_condition_at_numbers_is_one_of_who_takes_it():
+    """4 y < x^2 is shown at x = 3, y = 1; that 2 y < x^2 follows from it holds where it does."""
+    paper = Paper("p2030", "none")
+    paper.claim("1", "The gains", "condition", "x", "proved", at={x: Fraction(3), y: Fraction(1)})(
+        lambda: Goal((less(4 * y, x**2),)))
+    paper.claim("2", "A line", "inequality", "x", "proved", premises=("1",), severity="result")(
+        lambda: Goal((less(2 * y, x**2),), (*paper.shown("1"), greater(y, 0))))
+    paper.claim("3", "The same", "condition", "x", "proved", premises=("1",), at={x: Fraction(3), y: Fraction(1)})(
+        lambda: Goal((less(2 * y, x**2),), paper.shown("1")))
+    found = decide_all(paper.claims)
+    assert [d.besides for d in found] == [(), ("4*y < x**2 (1)",), ()]
+    assert "holds where 4*y < x**2 (1), which it does not state" in found[1].fate.why

@@ -90,8 +90,10 @@ def _taken(goal: Goal, premise: Decision, shown: Mapping[str, set[str]], before:
     """What is taken of one premise; before: what that takes of the claims that it uses itself."""
     other = _goal(premise)
     used = [text for text in goal.get("assume", []) if text in other.get("show", [])]
-    if not used:
-        return []
+    if not used:  # a condition is shown at the stated numbers alone, and is one wherever else it is used
+        pinned = other.get("show", []) if premise.claim.kind == "condition" else ()
+        return [f"{text} ({premise.claim.equation})" for text in goal.get("assume", [])
+                if any(_is_at_numbers(text, one) for one in pinned)]
     own = [text for text in goal["assume"] if text not in used]
     stated = {*own, *goal.get("always", [])}
     letters = _moved(goal, {name for text in (*stated, *goal["show"]) for name in _names(text)})
@@ -113,6 +115,20 @@ def _differ(goal: Goal, other: Goal, part: str, names: set[str]) -> bool:
     """Whether both goals say something else of a name; one that says nothing of how it moves means the same motion."""
     own, said = goal.get(part, {}), other.get(part, {})
     return any(own[name] != said[name] for name in names & {*own} & {*said})
+
+
+def _is_at_numbers(text: str, pinned: str) -> bool:
+    """Whether one relation is another with numbers in the place of letters."""
+    values: dict[str, str] = {}
+
+    def same(node: ast.AST, other: ast.AST) -> bool:
+        if isinstance(node, ast.Name) and not isinstance(other, ast.Name):
+            return values.setdefault(node.id, ast.dump(other)) == ast.dump(other)
+        parts, others = [*ast.iter_child_nodes(node)], [*ast.iter_child_nodes(other)]
+        return type(node) is type(other) and len(parts) == len(others) and all(map(same, parts, others)) and (
+            bool(parts) or ast.dump(node) == ast.dump(other))
+
+    return same(ast.parse(text), ast.parse(pinned)) and bool(values)
 
 
 def _moved(goal: Goal, letters: set[str]) -> set[str]:
