@@ -25,6 +25,10 @@ WITHIN = (
     r"For $|x| \le 1$, \begin{equation} \dot V \le -x^2 (1 - x^2). \end{equation} Thus \begin{equation} \dot V \le 0 . "
     r"\end{equation} Therefore \begin{equation} x \dot x \le 0. \tag{T} \end{equation}")
 
+PROVED_SO = tuple(rf"\begin{{theorem}} {said} \begin{{equation}} \dot V \le -x^2. \end{{equation}} \end{{theorem}} "
+                  r"\begin{proof} We have \begin{equation} \dot V \le -x^2. \tag{T} \end{equation} \end{proof}"
+                  for said in ("If $k > 1$, then", "For $k > 1$, we have", "Suppose that $k > 1$. Then"))
+
 
 def verdict(folder, text):
     (folder / "paper.tex").write_text(rf"{HEAD}{text}\end{{document}}")
@@ -48,6 +52,17 @@ def test_a_gain_of_which_the_sign_is_said_may_be_any(said, tmp_path):
 @pytest.mark.parametrize("text", WITHIN)
 def test_what_follows_from_a_line_of_some_values_is_of_these(text, tmp_path):
     assert verdict(tmp_path, of("Let $k>0$.", " - a x + x^3 + k x - x") + text) == "undecided"
+
+
+@pytest.mark.parametrize("text", PROVED_SO)
+def test_what_a_theorem_supposes_holds_in_its_proof(text, tmp_path):
+    assert verdict(tmp_path, of("Let $k>0$.", " - a x") + text) == "undecided"
+
+
+def test_behind_the_proof_it_does_not(tmp_path):
+    outside = r" We have \begin{equation} \dot V \le -x^2. \tag{T} \end{equation}"
+    text = of("Let $k>0$.", " - a x") + PROVED_SO[0].replace(r" \tag{T}", "") + r" \section{More}" + outside
+    assert verdict(tmp_path, text) == "refuted"
 
 
 def test_what_does_not_follow_from_it_may_be_of_all(tmp_path):

@@ -77,7 +77,7 @@ class Text(SaidText):
             restricted = frozenset[str]() if follows else said.restricted
             differs = (self._differs(said, facts) if self.local(other) else set()) - (said.restricted - restricted)
             contested = dict.fromkeys(differs, self._told(before)) | contested
-            supposed = self._supposed(said, display, self._assumes(other))
+            supposed = self._supposed(said, display, self._assumes(other)) | self._in_proof(other, said, sentence)
             supposed |= said.letters if untold else set()
             supposed |= {letter for one in said.limits if one not in limits for letter in letters_of_text(one)}
             signed |= {letter for fact in said.facts for letter in signed_by_words(fact)}
@@ -139,6 +139,10 @@ class Text(SaidText):
         others = [one for one, form in said.shown.items() if one != display and not self.formulas[one].gives
                   and (form in ("defined", "supposed", "given") or (assuming and one in said.tied))]
         return {letter for one in others for letter in self.formulas[one].letters}
+
+    def _in_proof(self, other: Sentence, said: Reading, sentence: Sentence) -> frozenset[str]:
+        """The letters of what a statement supposes for what it shows, in a proof."""
+        return said.letters if said.tied and self._proves(sentence) and not self._proves(other) else frozenset()
 
     def _anew(self, at: int) -> set[str]:
         """The letters that the text gives two different values, whatever its words say: within the text anywhere, in
