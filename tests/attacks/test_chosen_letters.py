@@ -29,6 +29,13 @@ PROVED_SO = tuple(rf"\begin{{theorem}} {said} \begin{{equation}} \dot V \le -x^2
                   r"\begin{proof} We have \begin{equation} \dot V \le -x^2. \tag{T} \end{equation} \end{proof}"
                   for said in ("If $k > 1$, then", "For $k > 1$, we have", "Suppose that $k > 1$. Then"))
 
+VALUED = ("The constant $k$ is $2$.", "The gain $k$ is one.", "The gain $k$ is two.", "The constant $k$ equals $2$.",
+          "The gain is $2$.", "The gain equals $2$.", "The gain is bounded below by $1$.",
+          "The gain $k$ is an integer.", "The gain $k$ is a positive integer.",
+          "Then $k$ is $2$.", "The gains $k$ and $c$ are $2$ and $3$.")
+ASKED = (r"We have \begin{equation} \dot V \le -x^2, \quad k > 1 \tag{T} \end{equation}",
+         r"where \begin{equation} k > 1. \end{equation} Then \begin{equation} \dot V \le -x^2 \tag{T} \end{equation}")
+
 
 def verdict(folder, text):
     (folder / "paper.tex").write_text(rf"{HEAD}{text}\end{{document}}")
@@ -56,6 +63,17 @@ def test_what_follows_from_a_line_of_some_values_is_of_these(text, tmp_path):
 
 @pytest.mark.parametrize("text", PROVED_SO)
 def test_what_a_theorem_supposes_holds_in_its_proof(text, tmp_path):
+    assert verdict(tmp_path, of("Let $k>0$.", " - a x") + text) == "undecided"
+
+
+@pytest.mark.parametrize("said", VALUED)
+def test_a_number_that_is_said_in_words_is_the_gains(said, tmp_path):
+    line = r" Then \begin{equation} \dot V \le -x^2. \tag{T} \end{equation}"
+    assert verdict(tmp_path, of("Let $k>0$.", " - a x") + said + line) == "undecided"
+
+
+@pytest.mark.parametrize("text", ASKED)
+def test_a_relation_of_gains_may_be_asked_of_them(text, tmp_path):
     assert verdict(tmp_path, of("Let $k>0$.", " - a x") + text) == "undecided"
 
 

@@ -25,8 +25,9 @@ _NUMBERS = narrowing.words_of("""
 _CHOSEN = narrowing.words_of("""
     suitable appropriate adequate proper stabilizing stabilising optimal ideal critical solution solutions maximum
     minimum maximal minimal bound bounds limit limits least greatest largest smallest margin root roots eigenvalue
-    supremum infimum sufficient sufficiently enough
+    supremum infimum sufficient sufficiently enough integer integers natural
 """)
+_COUNTS = narrowing.words_of("zero one two three four five six ten hundred unity integer integers natural")
 _ENDS = narrowing.words_of("and where with which while that for in")
 _BE = ("is", "are", "denotes", "denote", "represents", "represent", "stands", "being")
 _BETWEEN = re.compile(r"[\s=<>,;()\[\]|+]+|\\[a-z]*(?:le|ge|in|to|ne|frac|cdot)[a-z]*(?![A-Za-z])")
@@ -88,10 +89,17 @@ def chosen(words: Sequence[Word], classes: Sequence[str], told: frozenset[int]) 
         if word.kind == "math":
             near |= {*classes[start:place]} - {"ideal"}  # whose matching conditions are stated
         unclear = bool(_NUMBERS & {*classes[behind.start:behind.stop]}) and not told.isdisjoint(behind)
-        later = any(classes[at:at + 2] == ["to", "be"] for at in behind)
-        if near & _CHOSEN or unclear or later:
+        later = any([*classes[at:at + 2]] in (["to", "be"], ["number", "of"]) for at in behind)
+        counted = _COUNTS & {*classes[behind.start:behind.stop]}
+        if near & _CHOSEN or unclear or later or counted:
             found |= {*letters_within(word.text)}
     return frozenset(found)
+
+
+def numbered(words: Sequence[Word], texts: Sequence[str]) -> bool:
+    """Whether a sentence of plain words says a number, or what kind of number something is."""
+    return bool(_COUNTS & {*texts}) or any(
+        word.kind == "math" and re.search(r"\d", word.text) and not letters_within(word.text) for word in words)
 
 
 def _run(classes: Sequence[str], start: int) -> range:
