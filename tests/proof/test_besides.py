@@ -1,10 +1,12 @@
 """What a proof takes of a premise beyond what that shows is told: the premise's own assumptions, signs and rates."""
 
+from fractions import Fraction
+
 import pytest
 import sympy as sp
 
 from workbench.errors import ClaimError
-from workbench.proof.claim import D, Goal, at_least, at_most, equal, greater
+from workbench.proof.claim import D, Goal, at_least, at_most, equal, greater, less
 from workbench.proof.decide.engine import decide_all
 from workbench.proof.paper import Paper
 
@@ -43,6 +45,19 @@ NARROWER = {
         (greater(z, 0),), tuple(r.subs({z_declared: z}) for r in shown))), ("z > 0 (1)",)),
     "rates of another flow": ((lambda _: Goal((at_most(D(x**2), 0),), flow={x: -x}), lambda shown: Goal(
         (at_most(D(x**2), 1),), shown, flow={x: x})), ("rates are as in (1)",)),
+    "of a rate that is derived again": ((lambda _: Goal((at_most(D(D(x)), 0),), flow={x: y, y: sp.S.NegativeOne}),
+        lambda shown: Goal((at_most(z, 0),), shown, flow={x: y, y: z})), ("rates are as in (1)",)),
+    "of a letter that stands in the rates": ((lambda _: Goal((at_most(D(x**2), 0),), (at_least(z, 0),), {x: -z * x}),
+        lambda shown: Goal((at_most(D(x**4), 0),), shown, {x: -z * x})), ("z >= 0 (1)",)),
+    "of an input": ((lambda _: Goal((at_most(D(x**2), 0),), (at_most(x * y, 0),), {x: y - x}, inputs=(y,)),
+        lambda shown: Goal((at_most(D(x**4), 0),), shown, {x: y - x}, inputs=(y,))), ("x*y <= 0 (1)",)),
+    "of another motion": ((lambda _: Goal(
+        (at_most(x**2, 0),), flow={x: -x}, initial={x: sp.S.Zero}, decreasing=x**2),
+        lambda shown: Goal((equal(D(x), 0),), shown, {x: -3 * x})), ("rates are as in (1)",)),
+    "of another start": ((lambda _: Goal(
+        (at_most(x**2, 0),), flow={x: -x}, initial={x: sp.S.Zero}, decreasing=x**2),
+        lambda shown: Goal((at_most(x, y**2),), shown, {x: -x}, initial={x: -y**2})),
+        ("initial values are as in (1)",)),
     "what always holds": ((lambda _: Goal(
         (at_most(x, 0),), flow={x: y}, inputs=(y,), initial={x: sp.S.Zero}, always=(at_most(y, 0),), decreasing=x),
         lambda shown: Goal((at_most(x + y**2, y**2),), shown)), ("y <= 0 (1)",)),
@@ -117,3 +132,17 @@ def test_a_claim_names_what_it_takes():
 
 def test_what_a_premise_takes_of_its_own_needs_no_name():
     assert judged(beyond_one, everywhere, lambda shown: Goal((at_least(2 * x**2, 1),), shown))[-1].verdict == "proved"
+
+
+def test_a_condition_at_numbers_is_one_of_who_takes_it():
+    """4 y < x^2 is shown at x = 3, y = 1; that 2 y < x^2 follows from it holds where it does."""
+    paper = Paper("p2030", "none")
+    paper.claim("1", "The gains", "condition", "x", "proved", at={x: Fraction(3), y: Fraction(1)})(
+        lambda: Goal((less(4 * y, x**2),)))
+    paper.claim("2", "A line", "inequality", "x", "proved", premises=("1",), severity="result")(
+        lambda: Goal((less(2 * y, x**2),), (*paper.shown("1"), greater(y, 0))))
+    paper.claim("3", "The same", "condition", "x", "proved", premises=("1",), at={x: Fraction(3), y: Fraction(1)})(
+        lambda: Goal((less(2 * y, x**2),), paper.shown("1")))
+    found = decide_all(paper.claims)
+    assert [d.besides for d in found] == [(), ("4*y < x**2 (1)",), ()]
+    assert "holds where 4*y < x**2 (1), which it does not state" in found[1].fate.why

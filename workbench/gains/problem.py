@@ -65,6 +65,12 @@ class Family:
         products = [_plus(a, b) for a, b in combinations_with_replacement(self.blocks[0].basis, 2)]
         return len(self.blocks) == 1 and len(set(products)) == len(products)
 
+    @property
+    def of_points(self) -> bool:
+        """Whether every vector of the basis stands for a point of the states, or one at infinity, so that the condition
+        is met where its Gram matrix is no less than zero, and nowhere else."""
+        return len(self.blocks) == 1 and all(sum(one) <= 1 for one in self.blocks[0].basis)
+
     def at(self, values: tuple[Fraction, ...]) -> Poly:
         """The polynomial for values of the unknowns."""
         return {e: c[0] + sum((x * y for x, y in zip(c[1:], values, strict=True)), Fraction(0))
@@ -78,7 +84,12 @@ def _plus(one: Exponents, other: Exponents) -> Exponents:
 def states_of(problem: Problem) -> tuple[sp.Symbol, ...]:
     """The symbols for all of whose values the conditions must hold, by name."""
     margins = [expand_derivatives(r.margin, dict(problem.flow)) for r in problem.conditions.values()]
-    found = {s for m in (*margins, *(r.margin for r in problem.where)) for s in m.free_symbols}
+    found = {s for m in (*margins, *(r.margin for r in problem.where)) for s in m.free_symbols} | {*problem.unknowns}
+    if twice := sorted({str(s) for s in found if [*map(str, found)].count(str(s)) > 1}):
+        raise InputError(problem.id, twice[0], "names two symbols (with other assumptions): give each its own name")
+    if signed := sorted((s for s in found - {*problem.unknowns} if s.is_nonnegative), key=str):
+        raise InputError(problem.id, str(signed[0]), "is declared with a sign, and conditions are to hold for all "
+                         "real values of the states: declare it real, and state its sign in where")
     return tuple(sorted(found - set(problem.unknowns), key=str))
 
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from workbench.errors import SolverError, WorkbenchError
+from workbench.errors import InputError, SolverError, WorkbenchError
 from workbench.gains.certificate import Proof, infeasible_certificate, proved_certificate
 from workbench.gains.exact import Matrix, rational, simplest, squares_of
 from workbench.gains.lmi import Answer, Refusal, inner_duals, interior, least
@@ -28,7 +28,8 @@ class Infeasible(WorkbenchError):  # noqa: N818 - an answer of the search, not a
     """No values of the unknowns meet the conditions: names the families that contradict each other.
 
     shares: what part each family has in the contradiction; certificate: its exact proof, None where only the solver's
-    numbers show it.
+    numbers show it. Of polynomials beyond quadratic ones, and under `where`, it says that no values make them sums of
+    squares, as a proof would need them; that some meet the conditions all the same is left open.
     """
 
     def __init__(self, problem: Problem, shares: dict[str, float], certificate: dict[str, Any] | None,
@@ -36,8 +37,10 @@ class Infeasible(WorkbenchError):  # noqa: N818 - an answer of the search, not a
         self.shares, self.certificate, self.margin = shares, certificate, margin
         blamed = ", ".join(f"'{name}' ({share:.0%})" for name, share in shares.items())
         how = "by an exact certificate" if certificate else f"by the solver's numbers alone, margin {margin:.1e}"
-        super().__init__(f"{problem.id}: no values of {', '.join(map(str, problem.unknowns)) or 'nothing'} meet the "
-                         f"conditions, shown {how}: {blamed} contradict: loosen one of them")
+        points = all(family.of_points for family in families_of(problem))
+        none = "meet the conditions" if points else "make the conditions sums of squares (others may still meet them)"
+        super().__init__(f"{problem.id}: no values of {', '.join(map(str, problem.unknowns)) or 'nothing'} {none}, "
+                         f"shown {how}: {blamed} contradict: loosen one of them")
 
 
 @dataclass(frozen=True)
@@ -79,6 +82,7 @@ def search(problem: Problem, backoff: float = BACKOFF) -> Found:
             answer.unknowns, units, strict=False))
         if goal is not None and _value(goal[0], values) > goal[1]:
             continue
+        _require_signs(problem, values)
         proofs = _proofs(families, values, answer, tolerance, scales)
         if proofs is not None:
             exact = {u: rational(v) for u, v in zip(problem.unknowns, values, strict=True)}
@@ -158,6 +162,14 @@ def _numbers(problem: Problem, data: Scaled, units: list[Fraction],
         answer = interior(data, slope / size, (best + 10 * room) / size)
         room = 10 * room
     return answer, best + float(goal[0]), (goal, goal[0] + Fraction(best + 2 * room))
+
+
+def _require_signs(problem: Problem, values: tuple[Fraction, ...]) -> None:
+    for unknown, value in zip(problem.unknowns, values, strict=True):
+        if (unknown.is_positive and value <= 0) or (unknown.is_nonnegative and value < 0):
+            sign = "positive" if unknown.is_positive else "nonnegative"
+            raise InputError(problem.id, str(unknown), f"is declared {sign} and is {value} in what is found: state its "
+                                                       "sign as a condition")
 
 
 def _value(goal: tuple[Fraction, ...], values: tuple[Fraction, ...]) -> Fraction:
@@ -249,7 +261,7 @@ def _refused(problem: Problem, data: Scaled, refusal: Refusal, scales: list[Frac
     total = sum(weights.values()) or 1.0
     shares = {name: w / total for name, w in sorted(weights.items(), key=lambda x: -x[1]) if w > 1e-3 * total}
     certificate = None
-    if all(f.determined for f in data.families):
+    if all(f.determined and f.of_points for f in data.families):
         inner = inner_duals(data, refusal.margin)
         for duals in ([inner] if inner is not None else []) + [_on_a_face(refusal.duals)]:
             certificate = certificate or infeasible_certificate(problem, data, duals, scales)

@@ -10,13 +10,14 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from workbench.proof.checker import NAME, calls, nodes
+from workbench.proof.checker import NAME, nodes
 from workbench.proof.latex.letters import latex_name
 from workbench.proof.premises import ordered
 from workbench.proof.verdict import Decision
 
 Goal = Mapping[str, Any]
 RATES = "rates are as in"
+STARTS = "initial values are as in"
 _SIGN = re.compile(rf"({NAME.pattern}) >= 0")
 _SMALLER = re.compile(rf"({NAME.pattern}) <= ({NAME.pattern})")
 _SQUARES = re.compile(r"(?:Sum\()?\w+\*\*2\)?(?: \+ (?:Sum\()?\w+\*\*2\)?)*")
@@ -89,21 +90,68 @@ def _taken(goal: Goal, premise: Decision, shown: Mapping[str, set[str]], before:
     """What is taken of one premise; before: what that takes of the claims that it uses itself."""
     other = _goal(premise)
     used = [text for text in goal.get("assume", []) if text in other.get("show", [])]
-    if not used:
-        return []
+    if not used:  # a condition is shown at the stated numbers alone, and is one wherever else it is used
+        pinned = other.get("show", []) if premise.claim.kind == "condition" else ()
+        return [f"{text} ({premise.claim.equation})" for text in goal.get("assume", [])
+                if any(_is_at_numbers(text, one) for one in pinned)]
     own = [text for text in goal["assume"] if text not in used]
-    letters = {name for text in (*own, *goal["show"]) for name in _names(text)}
     stated = {*own, *goal.get("always", [])}
+    letters = _moved(goal, {name for text in (*stated, *goal["show"]) for name in _names(text)})
     where = f"({premise.claim.equation})"
     found = [f"{text} {where}" for text in (*other["assume"], *other.get("always", []))
              if text not in stated | shown[premise.claim.id] and _names(text) <= letters]
-    found += [one for one in before if one.startswith(RATES) or (
+    found += [one for one in before if one.startswith((RATES, STARTS)) or (
         (text := one.rpartition(" (")[0]) not in stated and _names(text) <= letters)]
-    rates = [text for text in used if calls(text, "D")]
+    moving = _moved(other, {name for text in used for name in _names(text)}) if other.get("initial") else set()
     if any(goal.get("flow", {}).get(name, "0") != other.get("flow", {}).get(name, "0")
-           for text in rates for name in _names(text)):
+           for text in used for name in _derived(text, other)) or _differ(goal, other, "flow", moving):
         found.append(f"{RATES} {where}")
+    if _differ(goal, other, "initial", moving):
+        found.append(f"{STARTS} {where}")
     return found
+
+
+def _differ(goal: Goal, other: Goal, part: str, names: set[str]) -> bool:
+    """Whether both goals say something else of a name; one that says nothing of how it moves means the same motion."""
+    own, said = goal.get(part, {}), other.get(part, {})
+    return any(own[name] != said[name] for name in names & {*own} & {*said})
+
+
+def _is_at_numbers(text: str, pinned: str) -> bool:
+    """Whether one relation is another with numbers in the place of letters."""
+    values: dict[str, str] = {}
+
+    def same(node: ast.AST, other: ast.AST) -> bool:
+        if isinstance(node, ast.Name) and not isinstance(other, ast.Name):
+            return values.setdefault(node.id, ast.dump(other)) == ast.dump(other)
+        parts, others = [*ast.iter_child_nodes(node)], [*ast.iter_child_nodes(other)]
+        return type(node) is type(other) and len(parts) == len(others) and all(map(same, parts, others)) and (
+            bool(parts) or ast.dump(node) == ast.dump(other))
+
+    return same(ast.parse(text), ast.parse(pinned)) and bool(values)
+
+
+def _moved(goal: Goal, letters: set[str]) -> set[str]:
+    """The letters, and those of the rates by which a claim says that they move."""
+    flow = goal.get("flow", {})
+    while more := {name for letter in letters & {*flow} for name in _names(flow[letter])} - letters:
+        letters = letters | more
+    return letters
+
+
+def _derived(text: str, goal: Goal) -> set[str]:
+    """The letters of which a relation takes the rates, those of a rate that is derived among them."""
+    deepest = max((_depth(node) for node in nodes(text)), default=0)
+    found = _names(text) if deepest else set()
+    for _ in range(deepest - 1):
+        found = found | {name for letter in found for name in _names(goal.get("flow", {}).get(letter, "0"))}
+    return found
+
+
+def _depth(node: ast.AST) -> int:
+    """How many derivatives of each other an expression is at most."""
+    own = isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "D"
+    return own + max((_depth(part) for part in ast.iter_child_nodes(node)), default=0)
 
 
 def _names(text: str) -> set[str]:

@@ -29,6 +29,7 @@ from workbench.files.modules import (
 from workbench.files.modules import PREFIX as FOLDER_PREFIX
 from workbench.files.time_limit import at_most_seconds
 from workbench.proof.dependencies import reading, reads
+from workbench.proof.typed import whole_domains
 
 PREFIX = "workbench_proofs_"
 
@@ -90,7 +91,7 @@ class ProofFile:
         """The imported files that may state a paper; raises InputError when one cannot be imported."""
         if not self._modules:
             try:
-                with self.at_home():
+                with self.at_home(), whole_domains():
                     self._modules = self._of_folder() if self.path.is_dir() else [self._imported()]
             except ClaimError as trouble:
                 raise InputError(self.path, "", str(trouble)) from None

@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from workbench.proof.besides import RATES
+from workbench.proof.besides import RATES, STARTS
 from workbench.proof.checker import calls
 from workbench.proof.places import place_of
 from workbench.proof.verdict import Decision
@@ -81,8 +81,9 @@ def _with_its_own(used: Decision, d: Decision, letters: Letters) -> str:
     """A line of the paper that a proof uses, and what that assumes beyond the proof's own conditions."""
     where = f" ({used.claim.equation})"
     own = [text.removesuffix(where) for text in d.besides if text.endswith(where)]
-    told = [f"${letters.in_formula(relation_latex(text))}$" for text in own if not text.startswith(RATES)]
-    told += ["its rates" for text in own if text.startswith(RATES)]
+    told = [f"${letters.in_formula(relation_latex(text))}$" for text in own if not text.startswith((RATES, STARTS))]
+    told += [said for words, said in ((RATES, "its rates"), (STARTS, "its initial values"))
+             for text in own if text.startswith(words)]
     return place_of(used.claim.equation, used.claim.title) + (f" with {listed(told)}" if told else "")
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from workbench.proof.claim import D, Goal, Relation, at_least, at_most, differ, equal, greater, less
+from workbench.proof.typed import as_typed
 
 from ..laws import (
     Delta_u,
@@ -180,14 +181,17 @@ def algorithm_estimate() -> Goal:
     return Goal((equal(phi_i, phi_prev + eta * Delta_u / (mu + Delta_u**2) * xi),), (*paper.shown("10"), equal(xi, innovation)))
 
 
+with as_typed():  # which keeps that the input has changed
+    solved_innovation = estimate_step(Delta_u, innovation) * (mu + Delta_u**2) / (eta * Delta_u)
+
+
 @paper.claim("12.innovation", "The innovation xi", "identity",
              r"\xi(k+1, i-1) = \Delta v(k+1, i-1) - \hat{\phi}_c(k, i-1) \times \Delta u_f(k, i-1)", "proved", premises=("10",),
-             where={r"\xi(k+1, i-1)": estimate_step(Delta_u, innovation) * (mu + Delta_u**2) / (eta * Delta_u)},
+             where={r"\xi(k+1, i-1)": solved_innovation},
              reading="A definition; decided as what xi must be for (12) to be the law (10), where the input has changed.")
 def innovation_named() -> Goal:
     """(12) solved for xi, with the step of (10)."""
-    solved = estimate_step(Delta_u, innovation) * (mu + Delta_u**2) / (eta * Delta_u)
-    return Goal((equal(solved, innovation),), (differ(Delta_u, 0),))
+    return Goal((equal(solved_innovation, innovation),), (differ(Delta_u, 0),))
 
 
 fires, updated, after_reset = sp.symbols("fires phi_updated phi_reset", real=True)

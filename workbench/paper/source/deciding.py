@@ -17,7 +17,7 @@ from workbench.paper.source.shown import Standing
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.read import read_line
 from workbench.proof.latex.rows import LetterEntry, RowEntry, text_of
-from workbench.proof.latex.sides import letters_of_text, moving_sides, rated_in, sides_of
+from workbench.proof.latex.sides import letter_latex, letters_of_text, moving_sides, rated_in, sides_of
 from workbench.proof.latex.tree import Letter, Number, Product, Quotient, Terms, parts_of
 
 _TYPED = re.compile(r"[A-Z]?[.-]?\d+(?:\.\d+)*[a-z]?")  # a number by which a text refers without a label
@@ -113,8 +113,10 @@ def given_otherwise(rows: list[RowEntry], verdicts: Mapping[str, str],
 
 
 def left_to_the_author(row: RowEntry, verdict: str, standing: Standing | None, rows: list[RowEntry],
-                        letters: Mapping[str, LetterEntry], otherwise: frozenset[str] = frozenset()) -> str:
-    """Why the verdict on a row does not count; empty where it does. otherwise: letters that are given twice."""
+                        letters: Mapping[str, LetterEntry], otherwise: frozenset[str] = frozenset(),
+                        asked: frozenset[str] = frozenset()) -> str:
+    """Why the verdict on a row does not count; empty where it does. otherwise: letters that are given twice; asked:
+    constants of which another row may ask something."""
     if standing is None or verdict == "undecided":
         return ""
     if verdict != "proved":
@@ -124,6 +126,7 @@ def left_to_the_author(row: RowEntry, verdict: str, standing: Standing | None, r
         gains = bool(own) and all(one in letters and letters[one].role == "constant" for one in own)
         valued = {letter for one in rows if one.role == "definition" for letter in dict(sides_of(text_of(one)))}
         gains = gains or (not own & valued and relates_letters_alone(text_of(row)))
+        gains = gains or bool((asked | asked_of(row, letters)) & standing.letters)
         natural = [standing.natural[one] for one in own & standing.natural.keys()
                    if one in letters and letters[one].kind in ("", "real")]
         untaken = sorted(standing.given & letters.keys())
@@ -145,6 +148,18 @@ def left_to_the_author(row: RowEntry, verdict: str, standing: Standing | None, r
     used = sorted(({*standing.contested} | (otherwise & standing.letters)) & known)
     told = "; ".join(dict.fromkeys(standing.contested.get(one) or "it is given twice" for one in used))
     return f"what is not understood may say otherwise of {', '.join(used)}: {told}" if used else ""
+
+
+def asked_of(row: RowEntry, letters: Mapping[str, LetterEntry]) -> frozenset[str]:
+    """The constants of which a line may ask something, in a relation of its own: `V' <= -x^2, k > 1`."""
+    try:
+        chains = read_line(text_of(row)).chains
+    except LatexError:
+        return frozenset()
+    own = [{letter_latex(part) for side in chain.sides for part in parts_of(side) if isinstance(part, Letter)}
+           for chain in chains if chain.signs]
+    return frozenset(letter for found in own for letter in found
+                     if all(one in letters and letters[one].role == "constant" for one in found))
 
 
 def relates_letters_alone(text: str) -> bool:

@@ -16,6 +16,7 @@ from workbench.paper.source.bounded import bounds_said, unclear_bounds
 from workbench.paper.source.bounds import bounded_in
 from workbench.paper.source.deciding import (
     as_read,
+    asked_of,
     doubted,
     given_otherwise,
     left_out,
@@ -107,10 +108,12 @@ def write_from_source(name: str, directory: Path, source: Path) -> FromSource:
     missing = {one.claim.equation: one.method for one in decided.decisions if one.verdict == "undecided"}
     recorded = []
     otherwise = given_otherwise(rows, verdicts, standing)
+    asked = frozenset[str]().union(*(asked_of(row, letters) for row in rows
+                                     if row.role == "claim" and verdicts.get(row.id) == "refuted"))
     for row in rows:
         if row.role == "claim":
             left = left_to_the_author(row, verdicts.get(row.id, "undecided"), standing.get(row.id), rows, letters,
-                                      otherwise)
+                                      otherwise, asked)
             if left:
                 verdicts[row.id], missing[row.id] = "undecided", left_out(left)
                 recorded.append(row.model_copy(update={"role": "words", "unread": left}))

@@ -21,6 +21,14 @@ _NUMBERS = narrowing.words_of("""
     real reals number numbers scalar scalars constant constants gain gains parameter parameters coefficient coefficients
     integer integers
 """)
+# Of what is described so not every value is meant.
+_CHOSEN = narrowing.words_of("""
+    suitable appropriate adequate proper stabilizing stabilising optimal ideal critical solution solutions maximum
+    minimum maximal minimal bound bounds limit limits least greatest largest smallest margin root roots eigenvalue
+    supremum infimum sufficient sufficiently enough integer integers natural
+""")
+_COUNTS = narrowing.words_of("zero one two three four five six ten hundred unity integer integers natural")
+_ENDS = narrowing.words_of("and where with which while that for in")
 _BE = ("is", "are", "denotes", "denote", "represents", "represent", "stands", "being")
 _BETWEEN = re.compile(r"[\s=<>,;()\[\]|+]+|\\[a-z]*(?:le|ge|in|to|ne|frac|cdot)[a-z]*(?![A-Za-z])")
 
@@ -65,6 +73,41 @@ def described(words: Sequence[Word], classes: Sequence[str]) -> tuple[tuple[str,
             found[place] = "quantity"
             places.add(place)
     return tuple(found), frozenset(places)
+
+
+def chosen(words: Sequence[Word], classes: Sequence[str], told: frozenset[int]) -> frozenset[str]:
+    """The letters that a sentence describes as numbers of some values alone, as `a sufficiently large constant`, `a
+    gain to be designed` or `the bound of $d$`; told: the places of its words that are not understood."""
+    found: set[str] = set()
+    for place, word in enumerate(words):
+        behind = _run(classes, place + 2) if word.kind == "math" and classes[place + 1:place + 2] and (
+            classes[place + 1] in ("be", *_BE)) else range(0)
+        start = place
+        while start and words[start - 1].kind == "word" and classes[start - 1] not in _ENDS:
+            start -= 1
+        near = {*classes[behind.start:behind.stop]}
+        if word.kind == "math":
+            near |= {*classes[start:place]} - {"ideal"}  # whose matching conditions are stated
+        unclear = bool(_NUMBERS & {*classes[behind.start:behind.stop]}) and not told.isdisjoint(behind)
+        later = any([*classes[at:at + 2]] in (["to", "be"], ["number", "of"]) for at in behind)
+        counted = _COUNTS & {*classes[behind.start:behind.stop]}
+        if near & _CHOSEN or unclear or later or counted:
+            found |= {*letters_within(word.text)}
+    return frozenset(found)
+
+
+def numbered(words: Sequence[Word], texts: Sequence[str]) -> bool:
+    """Whether a sentence of plain words says a number, or what kind of number something is."""
+    return bool(_COUNTS & {*texts}) or any(
+        word.kind == "math" and re.search(r"\d", word.text) and not letters_within(word.text) for word in words)
+
+
+def _run(classes: Sequence[str], start: int) -> range:
+    """The places of the words from one on up to the end of what may describe a letter."""
+    end = start
+    while end < len(classes) and classes[end].isalpha() and classes[end] not in _ENDS:
+        end += 1
+    return range(start, end)
 
 
 def _phrase(classes: Sequence[str], start: int, phrase: Collection[str]) -> list[str]:

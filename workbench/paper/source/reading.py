@@ -18,7 +18,7 @@ from workbench.paper.source.classes import classes_of, formula_class
 from workbench.paper.source.given import RATE, letter_of
 from workbench.paper.source.idioms import plainly
 from workbench.paper.source.passages import Sentence, Word
-from workbench.paper.source.plain import described, exchanges, letters_within, neutral, revalued
+from workbench.paper.source.plain import chosen, described, exchanges, letters_within, neutral, numbered, revalued
 
 DEFINE = "Define "  # with this a fact begins that gives a letter a value
 MOVE = "Move "  # and with this one that gives a letter a rate
@@ -91,13 +91,18 @@ def _read(words: Sequence[Word], body: str, assuming: bool, given: Collection[st
         opened, told = described(words, classes)
         found = _matched(rule, opened) if told else None
     if found is None and not shown and not asks and neutral(classes) and not exchanges(words, classes):
-        return _neutrally(texts, letters, revalued(words, classes, texts, given))
+        said = _neutrally(texts, letters, revalued(words, classes, texts, given))
+        if not numbered(words, texts):
+            return said
+        whole = frozenset((EVERYTHING,)) if {*texts} & _BOUNDED else frozenset()
+        return replace(said, restricted=said.restricted | (letters or whole))
     if found is None and shown and not asks and not assuming and _loose(classes):
         said = Reading(_loosely(words, classes), tied=frozenset(shown), letters=letters)
     elif found is None:
         return Reading(dict.fromkeys(shown, ""), letters=letters, unknown=_unknown(words, classes))
     else:
         said = _said(words, found, body, letters, told)
+        said = replace(said, restricted=said.restricted | chosen(words, classes, told))
     if odd := _no_limits(said, words, found or (), given):
         return Reading(dict.fromkeys(shown, ""), letters=letters, unknown=odd)
     taken = {*range(len(texts))}.difference(*(range(start, end) for rule, start, end in found or ()

@@ -77,13 +77,13 @@ class Text(SaidText):
             restricted = frozenset[str]() if follows else said.restricted
             differs = (self._differs(said, facts) if self.local(other) else set()) - (said.restricted - restricted)
             contested = dict.fromkeys(differs, self._told(before)) | contested
-            supposed = self._supposed(said, display, self._assumes(other))
+            supposed = self._supposed(said, display, self._assumes(other)) | self._in_proof(other, said, sentence)
             supposed |= said.letters if untold else set()
             supposed |= {letter for one in said.limits if one not in limits for letter in letters_of_text(one)}
             signed |= {letter for fact in said.facts for letter in signed_by_words(fact)}
             if (restricted | supposed | differs) & {*letters} or EVERYTHING in restricted:
                 doubts.append(self._told(before))
-        doubts += [self._told(place) for place in self._valued(letters)]
+        doubts += [self._told(place) for place in (*self._valued(letters), *self._followed(at))]
         last = self.readings[at - 1] if at else reading
         if not last.shown and not last.facts and of_a_motion(self.passages.sentences[at - 1].words):
             doubts.append(self._told(at - 1))  # the loop is stable, hence some number is negative
@@ -102,6 +102,14 @@ class Text(SaidText):
                         tuple(dict.fromkeys(self._named(names))), tuple(dict.fromkeys(doubts)),
                         own, frozenset(signed & {*letters}), display in reading.tied,
                         frozenset(letters), tuple(self._elsewhere(display, letters, called)), given, natural)
+
+    def _followed(self, at: int) -> Iterator[int]:
+        """The sentence before one that begins with `hence` or `then`, and before those that it follows from in turn,
+        where what that claims holds for some values alone."""
+        while at and self.passages.sentences[at].words[0].text in _FOLLOWS | {"then"}:
+            at -= 1
+            if self.readings[at].tied:
+                yield at
 
     def _elsewhere(self, display: int, letters: Collection[str],
                    called: Mapping[str, Collection[str]]) -> Iterator[str]:
@@ -131,6 +139,10 @@ class Text(SaidText):
         others = [one for one, form in said.shown.items() if one != display and not self.formulas[one].gives
                   and (form in ("defined", "supposed", "given") or (assuming and one in said.tied))]
         return {letter for one in others for letter in self.formulas[one].letters}
+
+    def _in_proof(self, other: Sentence, said: Reading, sentence: Sentence) -> frozenset[str]:
+        """The letters of what a statement supposes for what it shows, in a proof."""
+        return said.letters if said.tied and self._proves(sentence) and not self._proves(other) else frozenset()
 
     def _anew(self, at: int) -> set[str]:
         """The letters that the text gives two different values, whatever its words say: within the text anywhere, in
