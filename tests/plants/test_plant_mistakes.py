@@ -24,6 +24,11 @@ def _plant(push: sp.Expr = u, **more: object) -> wb.Plant:
     (lambda: _plant(events=(wb.Event("b", x, {"v": -v}),)), "event 'b': reset: 'v' is no symbol"),
     (lambda: wb.Event("b", x, [(v, -v)]), "no table"),  # type: ignore[arg-type]
     (lambda: _plant(sp.Piecewise((u, x > 0))), "end it with"),
+    (lambda: wb.Plant("m", (x, v), {x: v}, (u,)), "rates: nothing is given for 'v'"),
+    (lambda: wb.Plant("m", (x,), {x: u, v: u}, (u,)), "rates: 'v' is none of x"),
+    (lambda: wb.Plant("m", {x, v}, (v, u), (u,)), "states is a set, .* their order"),  # type: ignore[arg-type]
+    (lambda: _plant(parameters={u: 1.0}), "parameters is a table.* write .Parameter"),
+    (lambda: wb.Law("l", {u: -u}, parameters={v: 1.0}), "parameters is a table"),  # type: ignore[arg-type]
     (lambda: _plant().rates_at([1, 2, 3]), "give a list of 2 numbers, x, v"),
     (lambda: _plant().rates_at({"x": 1, "v": 2}), "give a list of 2"),  # type: ignore[arg-type]
     (lambda: _plant().rates_at("xv"), "give a list of 2 numbers"),  # type: ignore[arg-type]
@@ -42,6 +47,11 @@ def test_a_mistake_is_one_line(made: object, told: str) -> None:
     with pytest.raises(Exception, match=told) as trouble:
         made()  # type: ignore[operator]
     assert "\n" not in str(trouble.value)
+
+
+def test_rates_may_be_a_table() -> None:
+    """What is easily written as commands of a law are must not become the names of its keys."""
+    assert wb.Plant("m", (x, v), {v: u, "x": v}, (u,)) == _plant()
 
 
 def test_what_has_no_number_is_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

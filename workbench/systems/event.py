@@ -36,7 +36,7 @@ class Event:
         given = named_values(self.reset, f"{where}: reset")
         if not given:
             raise ValueError(f"{where} sets no state: give reset, state to its value just after")
-        symbols_of(given, f"{where}: reset")
+        symbols_of([*given], f"{where}: reset")
         object.__setattr__(self, "reset", {symbol: expression(value, f"{where}: reset of '{symbol}'")
                                            for symbol, value in given.items()})
 

@@ -83,7 +83,7 @@ class StateLaw:
 
     def __post_init__(self) -> None:
         where, put = f"law '{self.id}'", object.__setattr__
-        symbols_of(named_values(self.commands, f"{where}: commands"), f"{where}: commands")
+        symbols_of([*named_values(self.commands, f"{where}: commands")], f"{where}: commands")
         put(self, "commands", {symbol: expression(value, f"{where}: command of '{symbol}'")
                                for symbol, value in self.commands.items()})
         put(self, "states", tuple(self._state(state) for state in several(

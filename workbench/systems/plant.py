@@ -21,6 +21,7 @@ from workbench.systems.parameter import Parameter, checked_value
 from workbench.systems.symbols import (
     Limits,
     expression,
+    in_order_of,
     interval,
     is_finite,
     named_values,
@@ -37,17 +38,17 @@ from workbench.systems.symbols import (
 class Plant:
     """x' = rates(t, x, u, d, p), y = outputs(x, p), with n states, m inputs and any number of disturbances.
 
-    rates: one expression a state, in their order; of a plant in discrete time instead updates, the states one step
-    later, and step_s, the seconds between two; outputs: what can be measured, symbol to expression, the states
-    themselves where none is given; limits of inputs saturate them, limits of states are what MPC keeps and what a run
-    is measured against; domain: expressions that must stay positive, a run ends where one is not; events: what resets
-    states in a run, where an expression crosses zero; units: of states, inputs, outputs and disturbances. Raises
-    ValueError, one line, for what fits not together.
+    rates: one expression a state, in their order or as {state: expression}; of a plant in discrete time instead
+    updates, the states one step later, and step_s, the seconds between two; outputs: what can be measured, symbol to
+    expression, the states themselves where none is given; limits of inputs saturate them, limits of states are what MPC
+    keeps and what a run is measured against; domain: expressions that must stay positive, a run ends where one is not;
+    events: what resets states in a run, where an expression crosses zero; units: of states, inputs, outputs and
+    disturbances. Raises ValueError, one line, for what fits not together.
     """
 
     id: str
     states: Sequence[sp.Symbol]
-    rates: Sequence[Any] = ()
+    rates: Sequence[Any] | Mapping[sp.Symbol, Any] = ()
     inputs: Sequence[sp.Symbol] = ()
     disturbances: Sequence[sp.Symbol] = ()
     parameters: Sequence[Parameter] = ()
@@ -59,7 +60,7 @@ class Plant:
     units: Mapping[sp.Symbol, str] = field(default_factory=dict)
     title: str = ""
     source: str = ""
-    updates: Sequence[Any] = ()
+    updates: Sequence[Any] | Mapping[sp.Symbol, Any] = ()
     step_s: float | None = None
 
     def __post_init__(self) -> None:
@@ -70,6 +71,8 @@ class Plant:
         put(self, "parameters", several(self.parameters, f"{where}: parameters", Parameter, "Parameter(symbol, value)"))
         if not self.states:
             raise ValueError(f"{where} has no state: name at least one")
+        for name in ("rates", "updates"):
+            put(self, name, in_order_of(self.states, getattr(self, name), f"{where}: {name}"))
         kind = self._require_one_kind(where)
         for name in ("rates", "updates"):
             given = several(getattr(self, name), f"{where}: {name}")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from difflib import get_close_matches
 from typing import Any
 
@@ -91,13 +91,18 @@ def written(value: Any) -> str:
 
 
 def several(values: Any, where: str, of: type | None = None, write: str = "") -> tuple[Any, ...]:
-    """What was given as a list or tuple; ValueError naming `where` for a single one, and for what is not `of` a kind.
+    """What was given as a list or tuple; ValueError naming `where` for a single one, for a table or set, which says no
+    order, and for what is not `of` a kind.
 
     write: how one of them is written.
     """
     single = isinstance(values, str | sp.Basic) and not isinstance(values, sp.MatrixBase)
     if single or not isinstance(values, Iterable | sp.MatrixBase):
         raise ValueError(f"{where} is {values}, no list: write ({write or values},)")
+    if isinstance(values, Mapping | set | frozenset) and values:
+        kind = "table" if isinstance(values, Mapping) else "set"
+        raise ValueError(f"{where} is a {kind}, and of several their order counts: write "
+                         f"({write or ', '.join(map(str, values))},)")
     found = tuple(values)
     for value in found:
         if of is not None and not isinstance(value, of):
@@ -111,6 +116,22 @@ def named_values(values: Any, where: str, symbols: Iterable[sp.Symbol] = ()) -> 
         raise ValueError(f"{where} is {values}, no table: write {{symbol: value}}")
     by_name = {str(symbol): symbol for symbol in symbols}
     return {by_name.get(key, key) if isinstance(key, str) else key: value for key, value in values.items()}
+
+
+def in_order_of(symbols: Sequence[sp.Symbol], values: Any, where: str) -> Any:
+    """What a table says of each symbol, in their order; ValueError where it leaves one out or names another one. What
+    is no table as it is."""
+    if not isinstance(values, Mapping) or not values:
+        return values
+    named = named_values(values, where, symbols)
+    for name in named:
+        if name not in symbols:
+            raise ValueError(f"{where}: '{name}' is none of {', '.join(map(str, symbols))}: leave it out")
+    for symbol in symbols:
+        if symbol not in named:
+            raise ValueError(f"{where}: nothing is given for '{symbol}': give one for each of "
+                             f"{', '.join(map(str, symbols))}")
+    return tuple(named[symbol] for symbol in symbols)
 
 
 def symbols_of(values: Any, where: str) -> tuple[sp.Symbol, ...]:

@@ -93,7 +93,7 @@ def _plant(subject: _Subject, integrands: tuple[sp.Expr, ...], extremes: tuple[s
     setting, plant = subject.setting, subject.setting.plant
     given = {"u": plant.inputs, "s": setting.signal_symbols, "p": plant.parameter_symbols}
     every = {"x": plant.states, **given}
-    step = jump_step(plant.updates, integrands, plant.states, given) if plant.updates else (
+    step = jump_step(tuple(plant.updates), integrands, plant.states, given) if plant.updates else (
         runge_kutta_step([*plant.rates, *integrands], plant.states, given))
     count = len(plant.states) + len(integrands)
     source = [
