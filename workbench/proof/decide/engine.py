@@ -20,6 +20,7 @@ from workbench.proof.decide.number_roots import with_root_squares
 from workbench.proof.decide.refute import examples, find_counterexample, shown_point, value_at
 from workbench.proof.decide.search import prove_relation
 from workbench.proof.decide.square_roots import with_roots_of_squares
+from workbench.proof.decide.symbol_roots import with_squares_of_roots
 from workbench.proof.decide.undefined import undefined_somewhere
 from workbench.proof.decide.weaker_signs import with_weaker_signs
 from workbench.proof.fate import judged
@@ -157,11 +158,14 @@ def attempted_proof(goal: Goal) -> Certificate | str:
         if isinstance(found, str):
             return missing or found
         certificate, missing = _accepted(goal, record, with_roots_of_squares(
-            goal, usual, with_root_squares(record, found)))
-        if certificate is None and "not shown" in missing and (first := definedness_of_goal(usual)):
-            more = proofs_of(replace(usual, assume=(*usual.assume, *(lemma for lemma, _ in first))))
+            goal, usual, with_squares_of_roots(record, with_root_squares(record, found))))
+        # Of the goal as it is typed too: what sympy cancels must have a value all the same.
+        for one in (usual, goal) if certificate is None and "not shown" in missing else ():
+            first = definedness_of_goal(one) if certificate is None else []
+            more = proofs_of(replace(usual, assume=(*usual.assume, *(lemma for lemma, _ in first)))) if first else ""
             if not isinstance(more, str):
-                certificate, missing = _accepted(goal, record, [after(first, proof) for proof in more])
+                certificate, missing = _accepted(goal, record, [
+                    after(first, proof) for proof in with_squares_of_roots(record, more)])
         if certificate is None and "add up" in missing and (weaker := with_weaker_signs(usual)) is not None:
             more = proofs_of(weaker)
             if not isinstance(more, str):

@@ -151,11 +151,16 @@ def _partial(shown: Relation) -> list[Relation]:
     for side in (shown.left, shown.right):
         for power in sorted(side.atoms(sp.Pow), key=sp.default_sort_key):
             if power.exp.is_Rational and power.exp < 0:
-                found.append(greater(power.base, 0))
+                base = power.base
+                while isinstance(base, sp.Pow) and base.exp == sp.S.Half:  # a root is positive where what is below is
+                    base = base.base
+                found.append(greater(base, 0))
             elif power.exp.is_Rational and not power.exp.is_Integer:
                 found.append(at_least(power.base, 0))
         found += [greater(log.args[0], 0) for log in sorted(side.atoms(sp.log), key=sp.default_sort_key)]
-    found = [r for r in dict.fromkeys(found) if r.left.free_symbols and not r.left.has(*OTHERS)]
+    positive = {r.left for r in found if r.strict}  # what is positive need not be shown to be not negative first
+    found = [r for r in dict.fromkeys(found) if r.left.free_symbols and not r.left.has(*OTHERS)
+             and (r.strict or r.left not in positive)]
     return sorted(found, key=lambda r: int(r.left.count_ops()))
 
 

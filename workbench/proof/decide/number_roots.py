@@ -57,7 +57,7 @@ def _by_squares(record: dict[str, Any], place: int) -> Proof | None:
         rest, multiple = _replaced(rest, root)
         if multiple:
             terms.append({"coefficient": str(Fraction(1) / (scale * root.below)), "factors": [
-                {"assume": len(record.get("assume", [])) + len(used)}, {"any": _text(context, multiple)}]})
+                {"assume": len(record.get("assume", [])) + len(used)}, {"any": polynomial_text(context, multiple)}]})
             used.append(root)
     for atom, number in roots.items():
         cofactor: Poly = {}
@@ -69,7 +69,7 @@ def _by_squares(record: dict[str, Any], place: int) -> Proof | None:
             rest[lower] = rest.get(lower, Fraction(0)) + coefficient * number
         if cofactor:
             terms.append({"coefficient": str(Fraction(1) / scale), "factors": [
-                {"fact": "sqrt_square", "of": str(number)}, {"any": _text(context, cofactor)}]})
+                {"fact": "sqrt_square", "of": str(number)}, {"any": polynomial_text(context, cofactor)}]})
     if any(rest.values()):
         return None
     positive = [{"fact": "sqrt_positive", "of": str(roots[atom])} for atom, power in below for _ in range(power)]
@@ -140,13 +140,13 @@ def _times(monomial: tuple[tuple[str, int], ...], atom: str, power: int) -> tupl
     return tuple(sorted((a, p) for a, p in powers.items() if p))
 
 
-def _text(context: Context, poly: Poly) -> str:
+def polynomial_text(context: Context, poly: Poly) -> str:
     """A polynomial as the checker reads it."""
     def atom(name: str) -> str:
         if name not in context.functions:
             return name
         kind, of = context.functions[name]
-        over, below = _text(context, of.num), _text(context, of.den)
+        over, below = polynomial_text(context, of.num), polynomial_text(context, of.den)
         return f"{kind}({over})" if of.den == constant(1) else f"{kind}(({over})/({below}))"
 
     return " + ".join("*".join([f"({c})", *(f"{atom(a)}**{p}" for a, p in m)]) for m, c in sorted(poly.items())) or "0"
