@@ -22,6 +22,9 @@ TRUE = {
     "over a root that is assumed positive": lambda: Goal((equal(y / sp.sqrt(y), sp.sqrt(y)),), (at_least(y, TENTH),)),
     "of a sum": lambda: Goal((equal((x**2 + p) / sp.sqrt(x**2 + p), sp.sqrt(x**2 + p)),)),
     "finite time": lambda: Goal((at_most(-k * p / (2 * sp.sqrt(p)), -(k / 2) * sp.sqrt(p)),)),
+    "a norm squared": lambda: Goal((at_most(-k * sp.sqrt(x**2 + y**2) * sp.sqrt(x**2 + y**2), -k * x**2),)),
+    "super-twisting": lambda: Goal((at_most(-k * sp.sqrt(sp.Abs(x)) * sp.Abs(x) - p * x**2, 0),)),
+    "its power": lambda: Goal((equal(x * (-k * sp.sqrt(sp.Abs(x)) * sp.sign(x)), -k * sp.Abs(x) * sp.sqrt(sp.Abs(x))),)),
     "a quotient that cancels": lambda: Goal((equal(y * (k * x / y), k * x),), (at_least(y, TENTH),)),
     "a sum that cancels": lambda: Goal((equal((1 + x) * (k * x / (1 + x)), k * x),), (at_least(1 + x, TENTH),)),
     "a law that inverts the plant": lambda: Goal((equal(D(x**2 / 2), -k * x**2),), (at_least(sp.cos(x), TENTH),),
@@ -30,6 +33,7 @@ TRUE = {
 FALSE = {
     "a root that is none": lambda: Goal((equal(sp.sqrt(p) * sp.sqrt(p), sp.sqrt(p)),)),
     "too much": lambda: Goal((equal(p / sp.sqrt(p), p),)),
+    "super-twisting the wrong way": lambda: Goal((at_least(-k * sp.sqrt(sp.Abs(x)) * sp.Abs(x) - p * x**2, 0),)),
     "too quick": lambda: Goal((at_most(-k * p / (2 * sp.sqrt(p)), -k * sp.sqrt(p)),)),
 }
 NOWHERE = {

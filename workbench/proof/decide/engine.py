@@ -157,15 +157,16 @@ def attempted_proof(goal: Goal) -> Certificate | str:
         found = proofs_of(usual)
         if isinstance(found, str):
             return missing or found
+        shown = goal_text(usual)["show"]
         certificate, missing = _accepted(goal, record, with_roots_of_squares(
-            goal, usual, with_squares_of_roots(record, with_root_squares(record, found))))
+            goal, usual, with_squares_of_roots(record, shown, with_root_squares(record, found))))
         # Of the goal as it is typed too: what sympy cancels must have a value all the same.
         for one in (usual, goal) if certificate is None and "not shown" in missing else ():
             first = definedness_of_goal(one) if certificate is None else []
             more = proofs_of(replace(usual, assume=(*usual.assume, *(lemma for lemma, _ in first)))) if first else ""
             if not isinstance(more, str):
                 certificate, missing = _accepted(goal, record, [
-                    after(first, proof) for proof in with_squares_of_roots(record, more)])
+                    after(first, proof) for proof in with_squares_of_roots(record, shown, more, len(first))])
         if certificate is None and "add up" in missing and (weaker := with_weaker_signs(usual)) is not None:
             more = proofs_of(weaker)
             if not isinstance(more, str):
