@@ -25,6 +25,7 @@ from workbench.proof.language import (  # noqa: F401 - what goals are stated wit
     saturation,
     sinh,
     symbols_in,
+    table_of,
 )
 from workbench.proof.latex.write import latex
 from workbench.proof.typed import as_evaluated, evaluated, kept_as_typed
@@ -182,10 +183,7 @@ class Goal:
                 raise ClaimError(f"the part '{part}' of a goal is no tuple of relations: write "
                                  "(at_least(x, 0),), with equal, at_most, less, at_least, greater or differ")
         for part in ("flow", "initial", "model"):
-            exact = {s: sp.sympify(value, strict=True) for s, value in getattr(self, part).items()}
-            if not all(isinstance(s, sp.Expr) for s in exact):
-                raise ClaimError(f"the part '{part}' of a goal names no symbols: write {{x: rate}}, no text")
-            object.__setattr__(self, part, exact)
+            object.__setattr__(self, part, table_of(getattr(self, part), part))
         if not isinstance(self.inputs, tuple) or not all(
                 isinstance(s, (sp.Symbol, sp.Indexed)) for s in self.inputs):
             raise ClaimError("the part 'inputs' of a goal is no tuple of symbols: write inputs=(u, d)")

@@ -107,6 +107,17 @@ class Language:
                              "positive or nonnegative (indexed: real) and state the rest as an assumption")
 
 
+def table_of(given: object, part: str) -> dict[sp.Expr, sp.Expr]:
+    """A part of a goal as a table of expressions; ClaimError for what is none."""
+    if not isinstance(given, Mapping) or not all(isinstance(s, sp.Expr) for s in given):
+        what = "names no symbols" if isinstance(given, Mapping) else "is no table"
+        raise ClaimError(f"the part '{part}' of a goal {what}: write {{x: rate}}, no text")
+    try:
+        return {s: sp.sympify(value, strict=True) for s, value in given.items()}
+    except sp.SympifyError:
+        raise ClaimError(f"the part '{part}' of a goal has what is no expression: write {{x: -x}}") from None
+
+
 def require_clock(moving: Sequence[sp.Expr], followed: Sequence[sp.Expr]) -> None:
     """ClaimError where what is followed along a flow changes with the time t, which is none of what moves."""
     names = set(map(str, moving))
