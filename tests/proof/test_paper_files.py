@@ -55,7 +55,7 @@ MISTAKES = {
     "a title that is none": (HEAD + claim().replace('"1", "1"', '"1", None'), "its title is no text"),
     "a relation that is no tuple": (HEAD + claim(body="return Goal(at_least(x**2, 0))"), "no tuple of relations"),
     "a relation of sympy": (HEAD + claim(body="return Goal((x >= 0,))"), "no tuple of relations"),
-    "a flow in a list": (HEAD + claim(body="return Goal((equal(x, x),), flow=[(x, 0)])"), "is no table: write {x: rate}"),
+    "a flow in a list": (HEAD + claim(body="return Goal((equal(x, x),), flow=[(x, 0)])"), "is no table"),
     "a rate of text": (HEAD + claim(body="return Goal((equal(x, x),), flow={x: '-x'})"), "is no expression"),
     "a flow of text": (HEAD + claim(body="return Goal((equal(x, x),), flow={'x': 0})"), "names no symbols"),
     "a float among stated values": (HEAD + claim().replace("premises=()", "at={x: 0.5}"), "Fraction(1, 2)"),
