@@ -20,7 +20,7 @@ def command(folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="What 
                                       "accepted (kernel.txt): their verdicts then say so.")] = None,
             only_new: Annotated[bool, typer.Option(
                 "--only-new", help="With --record: leave out the goals that it has already, of the same version of "
-                                   "Coq, and what is no line of the paper, such as certificates of gains.")] = False,
+                                   "Coq, and certificates of other papers.")] = False,
             seconds: Annotated[float, typer.Option(
                 metavar="S", min=1, max=86_400, help="Seconds of processor time for one file.")] = 120) -> None:
     """Run coqc on every file that export-coq wrote; exit 0 when the kernel accepts all of them, 1 when it refuses one.
