@@ -18,6 +18,7 @@ from workbench.proof.decide.log_products import find_by_log_products
 from workbench.proof.decide.over_denominator import find_over_denominator
 from workbench.proof.decide.parts import find_by_parts
 from workbench.proof.decide.pivots import find_by_pivots
+from workbench.proof.decide.sines import sine_lemmas
 from workbench.proof.decide.smoothing import smoothing_lemmas
 from workbench.proof.decide.splits import find_by_factor_signs, find_by_splits
 from workbench.proof.decide.squares import find_squares
@@ -42,7 +43,8 @@ def prove_relation(goal: Goal, shown: Relation) -> Found:
         given = assumptions(goal)
         first = pinched(given)
         first += first_lemmas(goal, shown, (*given, *(lemma for lemma, _ in first)))
-        first += smoothing_lemmas(goal, shown, (*given, *(lemma for lemma, _ in first)), search)
+        for lemmas in (smoothing_lemmas, sine_lemmas):
+            first += lemmas(goal, shown, (*given, *(lemma for lemma, _ in first)), search)
         known = (*given, *(lemma for lemma, _ in first))
         found = search(goal, shown, known, goal.lemmas)
         if found is None and (roots := roots_below(goal, shown, known)):
