@@ -2,12 +2,9 @@
 
 import pytest
 import sympy as sp
+from typed_goals import proved, require_broken
 
-from workbench.proof.checker import check
 from workbench.proof.claim import D, Goal, at_least, at_most, differ, greater
-from workbench.proof.decide.engine import prove_goal
-from workbench.proof.decide.refute import find_counterexample
-from workbench.proof.typed import as_typed
 
 x, y, d = sp.symbols("x y d", real=True)
 k, p = sp.symbols("k p", positive=True)
@@ -38,15 +35,9 @@ FALSE = {
 
 @pytest.mark.parametrize("goal", TRUE.values(), ids=TRUE)
 def test_the_sine_has_the_sign_of_its_argument_near_zero(goal):
-    with as_typed():
-        stated = goal()
-    certificate = prove_goal(stated)
-    assert certificate is not None
-    check(certificate)
+    proved(goal)
 
 
 @pytest.mark.parametrize("goal", FALSE.values(), ids=FALSE)
 def test_what_is_false_of_it_is_broken(goal):
-    with as_typed():
-        stated = goal()
-    assert prove_goal(stated) is None and find_counterexample(stated, "refuted") is not None
+    require_broken(goal)

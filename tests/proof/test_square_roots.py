@@ -4,8 +4,8 @@ import pytest
 import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from typed_goals import proved, require_broken
 
-from workbench.proof.checker import check
 from workbench.proof.claim import D, Goal, at_least, at_most, equal
 from workbench.proof.decide.engine import prove_goal
 from workbench.proof.decide.refute import find_counterexample
@@ -43,18 +43,12 @@ FALSE = {
 
 @pytest.mark.parametrize("goal", TRUE.values(), ids=TRUE)
 def test_a_root_of_a_square_is_a_size_to_the_checker_too(goal):
-    with as_typed():
-        stated = goal()
-    certificate = prove_goal(stated)
-    assert certificate is not None and "sqrt(" in str(certificate["goal"]["show"])
-    check(certificate)
+    assert "sqrt(" in str(proved(goal)["goal"]["show"])
 
 
 @pytest.mark.parametrize("goal", FALSE.values(), ids=FALSE)
 def test_what_is_false_of_it_is_broken(goal):
-    with as_typed():
-        stated = goal()
-    assert prove_goal(stated) is None and find_counterexample(stated, "refuted") is not None
+    require_broken(goal)
 
 
 @pytest.mark.parametrize("goal", [

@@ -4,11 +4,10 @@ import pytest
 import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from typed_goals import proved, require_broken
 
-from workbench.proof.checker import check
 from workbench.proof.claim import D, Goal, at_least, at_most, equal
 from workbench.proof.decide.engine import prove_goal
-from workbench.proof.decide.refute import find_counterexample
 from workbench.proof.typed import as_typed
 
 x, y = sp.symbols("x y", real=True)
@@ -47,18 +46,12 @@ NOWHERE = {
 
 @pytest.mark.parametrize("goal", TRUE.values(), ids=TRUE)
 def test_what_sympy_makes_one_of_the_checker_is_shown(goal):
-    with as_typed():
-        stated = goal()
-    certificate = prove_goal(stated)
-    assert certificate is not None
-    check(certificate)
+    proved(goal)
 
 
 @pytest.mark.parametrize("goal", FALSE.values(), ids=FALSE)
 def test_what_is_false_of_it_is_broken(goal):
-    with as_typed():
-        stated = goal()
-    assert prove_goal(stated) is None and find_counterexample(stated, "refuted") is not None
+    require_broken(goal)
 
 
 @pytest.mark.parametrize("goal", NOWHERE.values(), ids=NOWHERE)

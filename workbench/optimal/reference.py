@@ -164,7 +164,7 @@ def _driven_reference(vehicle: Vehicle, course: Course, timetable: Timetable, st
     rounds, known, enough = 1 if intervals else ROUNDS, None, 0.0 if intervals else GAP_WANTED
     if like is not None and like.planned is not None:
         known = _known(asked, course, like, like.planned)
-        if known is not None:
+        if known is not None:  # what differs is how it is driven: a run that is near enough needs no other plan
             grid, rounds, enough = known.plan.grid, 1, GAP_WANTED
         elif intervals is None and len(like.planned.plan.force_n) > REFINED * len(grid.limit_mps):
             grid, enough = grid_near(course, like.planned.plan.grid.position_m), GAP_OF_CONES

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from workbench.proof.checker import CertificateError, Monomial, Poly, constant, margin, read_goal
+from workbench.proof.checker import CertificateError, Poly, constant, margin, read_goal, times_monomial
 from workbench.proof.decide.number_roots import polynomial_text
 
 Proof = dict[str, Any]
@@ -55,17 +55,10 @@ def _cofactors(value: Poly, inner: dict[str, Poly]) -> dict[str, Poly] | None:
         if square is None:
             break
         monomial, atom = square
-        coefficient, lower = rest.pop(monomial), _times(monomial, ((atom, -2),))
+        coefficient, lower = rest.pop(monomial), times_monomial(monomial, ((atom, -2),))
         cofactor = found.setdefault(atom, {})
         cofactor[lower] = cofactor.get(lower, 0) + coefficient
         for of, number in inner[atom].items():
-            product = _times(lower, of)
+            product = times_monomial(lower, of)
             rest[product] = rest.get(product, 0) + coefficient * number
     return None if any(rest.values()) else found
-
-
-def _times(one: Monomial, two: Monomial) -> Monomial:
-    powers = dict(one)
-    for atom, power in two:
-        powers[atom] = powers.get(atom, 0) + power
-    return tuple(sorted((a, p) for a, p in powers.items() if p))
